@@ -8,6 +8,7 @@ pub mod killed;
 pub mod law_fit;
 pub mod measured_motion;
 pub mod measured_pair;
+pub mod pair_bounds;
 pub mod pair_law_fit;
 pub mod pairs_done;
 pub mod program;

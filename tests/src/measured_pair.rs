@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use analysis::accuracy::{CalibratedMesh, Curves, Features, Sample, Seen, features};
+use analysis::accuracy::{CalibratedMesh, Curves, Features, Sample, Seen, WholeForce, features};
 use geometry::GearPair;
 use scene::{Quantity, Scene};
 use serde_json::Value;
@@ -13,6 +13,8 @@ use crate::random_scene::{random_scene, torque_of_pressure};
 const EXTRAPOLATION: f64 = 0.4;
 /// Rungs that errors are known of.
 pub const RUNGS: [u32; 4] = [2, 3, 4, 6];
+/// Error over the scale below which none is told from another: that of one pair of teeth that bears all is round-off.
+pub const LEAST_ERROR: f64 = 1e-5;
 /// Positions of a cycle on every mesh.
 pub const POSITIONS: u32 = 8;
 /// Positions of the curves, which stand for all of them.
@@ -150,7 +152,17 @@ impl MeasuredPair {
         let curves = self.curves_of(positions)?;
         let halved = || Some(curves.value(quantity)? - self.curves_of(positions / 2)?.value(quantity)?);
         let halved = if positions > POSITIONS { Some(halved()?) } else { None };
-        Some(Seen::of(&curves.between(quantity)?, halved))
+        let between = self.whole().between(quantity, curves.value(quantity)?, curves.between(quantity)?);
+        Some(Seen::of(&between, halved))
+    }
+
+    /// What a number of a run shows of the errors of its mesh and its slices.
+    pub fn number(&self, quantity: Quantity, value: f64) -> Seen {
+        self.whole().number(quantity, value)
+    }
+
+    fn whole(&self) -> WholeForce {
+        WholeForce::of(&self.scene, &self.pair)
     }
 
     /// On infinitely fine elements, slices and positions.

@@ -88,7 +88,7 @@ answer::remarks! {
         "with `profile_shift` {profile_shift} of the ring the backlash is {backlash_mm} mm; {profile_shift_that_fits} fits the centre distance: ISO 21771 has minus the sign of conventions with z_2 > 0",
         "";
     speed_in_rad_per_s(speed_rpm, speed_if_rad_per_s_rpm)
-        "`speed_rpm` is {speed_rpm}; {speed_rpm} rad/s are {speed_if_rad_per_s_rpm} 1/min, was that meant?", "";
+        "`speed_rpm` is {speed_rpm}; {speed_rpm} rad/s are {speed_if_rad_per_s_rpm} rpm, was that meant?", "";
 
     // Standards.
     rating_outside(quantity, value, clause, range)
@@ -151,7 +151,7 @@ answer::remarks! {
         "in {rows} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {bound_um:.3} um",
         "a backlash keeps them apart";
     speed_has_changed(mean_rpm, start_rpm)
-        "the driver's mean speed is {mean_rpm:.1}/min, it began with {start_rpm:.1}/min: mesh cycles, and orders of the spectrum, are those of the start",
+        "the driver's mean speed is {mean_rpm:.1} rpm, it began with {start_rpm:.1} rpm: mesh cycles, and orders of the spectrum, are those of the start",
         "";
     few_rows(rows, share_percent, from_order, to_order, limit_percent, cure)
         "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (reported from {limit_percent:.0} % on); peaks fall between the rows",
@@ -172,7 +172,7 @@ answer::remarks! {
         "the speed changes within {duration_s} s: that takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
         "{cure}";
     coarse_order_cut(points, order, speed_rpm, points_enough, times, cure)
-        "the peak of order {order} at {speed_rpm:.0}/min has {points} of the {points_enough} points across it that show its height and place",
+        "the peak of order {order} at {speed_rpm:.0} rpm has {points} of the {points_enough} points across it that show its height and place",
         "{cure}, by a factor of {times:.1} or more";
     impact_exponent(stiffness_n_per_mm_to_1_5, exponent)
         "the impact stiffness of {stiffness_n_per_mm_to_1_5:.4e} N/mm^1.5 is that of two balls and belongs to the exponent 1.5; here it is taken with {exponent}",
@@ -215,11 +215,11 @@ answer::remarks! {
         "along the branch rolling bearings are springs about their mean equilibrium; motions integrated in time follow the laws of the bearings",
         "";
     vibration_beyond_load(force_n, speed_rpm, order, exciting, load_n, speeds, of_speeds, listed)
-        "the linear vibration takes up to {force_n:.0} N off the mean load of {load_n:.0} N at {speed_rpm:.0}/min, most of it by order {order} of mesh {exciting}: the flanks would lose contact, which a linear vibration does not know; so at {speeds} of {of_speeds} speeds ({listed})",
+        "the linear vibration takes up to {force_n:.0} N off the mean load of {load_n:.0} N at {speed_rpm:.0} rpm, most of it by order {order} of mesh {exciting}: the flanks would lose contact, which a linear vibration does not know; so at {speeds} of {of_speeds} speeds ({listed})",
         "a motion at these speeds knows the loss of contact (`[motion]` with `mesh = \"mapped\"`)";
-    bearing_estimated(bearing, elements)
-        "bearing {bearing}: its inside is estimated from bore, outer diameter and static rating: {elements} a row",
-        "state `elements` and their sizes where they are known";
+    bearings_estimated(bearings, estimates)
+        "rolling elements or ratings of {bearings} bearings are estimated from bore, outer diameter and static rating or width: {estimates}",
+        "state `elements` with their sizes, `static_rating_kn` and `dynamic_rating_kn` where they are known";
     bearing_on_held_shaft(bearing)
         "bearing {bearing} is on a shaft that is held: its rolling elements carry nothing", "";
     bearing_unloaded(bearing)

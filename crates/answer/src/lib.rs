@@ -6,7 +6,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`Table`], [`Column`] | columns of numbers or texts; name, unit and meaning stand once |
-//! | [`unit_of`] | the unit that a name ends with |
+//! | [`unit_of`], [`shown_units`] | the unit that a name ends with, and units as people read them |
 //! | [`csv`] | numbers and texts as fields of a file with commas |
 //! | [`write_table`], [`write_parquet`] | the files of a table |
 //! | [`RowStore`], [`RowColumn`] | rows of a motion in constant memory, and columns of a table that are read off them |
@@ -44,4 +44,4 @@ pub use row_column::{KeptColumn, OfRow, RowColumn};
 pub use row_store::RowStore;
 pub use table::{Column, Table, Values};
 pub use table_files::{TakeLines, write_parquet, write_table};
-pub use unit::unit_of;
+pub use unit::{shown_units, unit_of};

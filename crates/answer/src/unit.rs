@@ -64,6 +64,43 @@ pub fn unit_of(name: &str) -> String {
     name.split_once("_per_").map_or_else(String::new, |(above, _)| unit_of(above))
 }
 
+/// Units in ASCII, and as people read them.
+const SHOWN: [(&str, &str); 7] = [
+    ("um", "µm"),
+    ("urad", "µrad"),
+    ("N m", "N·m"),
+    ("N mm", "N·mm"),
+    ("N s", "N·s"),
+    ("kg m2", "kg·m²"),
+    ("1/min", "rpm"),
+];
+
+/// A text with its units as SI writes them: `µm` for `um`, `N·m` for `N m`; names and keys, as `ste_um`, stay.
+///
+/// ```
+/// assert_eq!(answer::shown_units("STE [um], 150 N m at 1500 1/min"), "STE [µm], 150 N·m at 1500 rpm");
+/// assert_eq!(answer::shown_units("stiffness [N/um], `ste_um` and an umlaut"), "stiffness [N/µm], `ste_um` and an umlaut");
+/// ```
+pub fn shown_units(text: &str) -> String {
+    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '`');
+    let mut shown = String::with_capacity(text.len() + 8);
+    let mut rest = text;
+    while let Some(next) = rest.chars().next() {
+        // The longest first: `N mm` begins as `N m` does.
+        let found = SHOWN
+            .iter()
+            .filter(|(unit, _)| rest.strip_prefix(unit).is_some_and(|behind| !is_part(behind.chars().next())));
+        let found = found.max_by_key(|(unit, _)| unit.len()).filter(|_| !is_part(shown.chars().next_back()));
+        let (taken, written) = match found {
+            Some((unit, as_si)) => (unit.len(), *as_si),
+            None => (next.len_utf8(), &rest[..next.len_utf8()]),
+        };
+        shown.push_str(written);
+        rest = &rest[taken..];
+    }
+    shown
+}
+
 fn ending(name: &str) -> Option<(&'static str, &'static str)> {
     let of = |(ending, _): &&(&str, &str)| {
         name.strip_suffix(ending).is_some_and(|rest| rest.is_empty() || rest.ends_with('_'))

@@ -21,11 +21,13 @@ pub fn plan_digest(plan: &Plan) -> String {
 
 /// What says that two searches have the same designs in the same order.
 pub fn numbers_digest(plan: &NumberOptimisation) -> String {
-    let NumberOptimisation { document, settings, parameters, goals, limits, evaluations, .. } = plan;
+    let NumberOptimisation { document, settings, parameters, goals, limits, loads, evaluations, .. } = plan;
     let mut hasher = blake3::Hasher::new();
     let words: Vec<String> = settings.iter().map(Setting::word).collect();
     let inputs = inputs(plan.machine(&plan.start()).ok());
-    let all = format!("{} {words:?} {parameters:?} {goals:?} {limits:?} {evaluations} {inputs}", document.blake3());
+    let loads: Vec<f64> = loads.iter().map(|load| load.torque_nm).collect();
+    let all =
+        format!("{} {words:?} {parameters:?} {goals:?} {limits:?} {loads:?} {evaluations} {inputs}", document.blake3());
     hasher.update(env!("CARGO_PKG_VERSION").as_bytes()).update(all.as_bytes());
     hasher.finalize().to_hex().to_string()
 }

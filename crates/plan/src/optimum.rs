@@ -21,10 +21,10 @@ pub struct NumberOptimum {
     pub values: Vec<f64>,
     /// All that is known there.
     pub evaluation: Evaluation,
-    /// Goals and limited numbers at the start, in the order of [`NumberOptimisation::outputs`].
-    pub before: Vec<f64>,
-    /// Goals and limited numbers with `values`.
-    pub after: Vec<f64>,
+    /// Goals and limited numbers at the start, in the order of [`NumberOptimisation::outputs`], load by load.
+    pub before: Vec<Vec<f64>>,
+    /// The same with `values`.
+    pub after: Vec<Vec<f64>>,
 }
 
 /// Why there is no optimum.
@@ -47,9 +47,10 @@ const fn goal() -> Goal {
     Goal { measure: Measure::PeakToPeak, over: Over::Mean }
 }
 
-/// What the numbers of a design come to: the mean absolute value of the goals.
-pub fn goal_of(numbers: &[f64], goals: usize) -> f64 {
-    numbers[..goals].iter().map(|x| x.abs()).sum::<f64>() / goals as f64
+/// What the numbers of a design come to: the mean absolute value of the goals under all loads.
+pub fn goal_of(numbers: &[Vec<f64>], goals: usize) -> f64 {
+    let all = numbers.iter().flat_map(|of_load| &of_load[..goals]).map(|x| x.abs());
+    all.sum::<f64>() / (goals * numbers.len().max(1)) as f64
 }
 
 /// Unit of the mean of the goals, where they all have one.
@@ -86,7 +87,7 @@ pub fn optimise_numbers(
         found
     };
     // Numbers of each design, the start the first.
-    let mut known: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    let mut known: Vec<(Vec<f64>, Vec<Vec<f64>>)> = Vec::new();
     let found = search.run(&plan.start(), |values| {
         let (evaluation, numbers) = at(values)?;
         known.push((values.to_vec(), numbers));
@@ -109,18 +110,18 @@ fn evaluate(
     observer: CaseObserver<'_>,
     done: &DoneCases,
     (count, values): (usize, &[f64]),
-) -> Result<(Evaluation, Vec<f64>), OptimumError> {
-    let outputs = plan.outputs();
+) -> Result<(Evaluation, Vec<Vec<f64>>), OptimumError> {
+    let (outputs, loads) = (plan.outputs(), plan.loads.len());
     let designs: Vec<(Vec<f64>, f64)> =
         std::iter::once((values.to_vec(), 0.0)).chain((0..values.len()).map(|k| plan.beside(values, k))).collect();
     let failed = Mutex::new(None);
-    let solved = parallel_map(designs.len(), |i| {
-        let (case, own) = (count * designs.len() + i, &designs[i].0);
+    let solved = parallel_map(designs.len() * loads, |i| {
+        let (case, own) = (count * designs.len() * loads + i, &designs[i / loads].0);
         if let Some(known) = done.row(case).filter(|row| row.values == *own) {
             return known.outcome;
         }
         let outcome = plan
-            .machine(own)
+            .machine_under(own, &plan.loads[i % loads])
             .map_err(|e| e.to_string())
             .and_then(|machine| numbers(machine, &outputs, models, &mut *observer()));
         let row = CaseRow { case, values: own.clone(), outcome };
@@ -133,20 +134,27 @@ fn evaluate(
         return Err(e.into());
     }
     let solved = solved.into_iter().collect::<Result<Vec<_>, String>>().map_err(OptimumError::NoResult)?;
-    let here = solved[0].clone();
-    let rates = |k: usize| -> Vec<f64> {
-        solved[1..].iter().zip(&designs[1..]).map(|(beside, (_, step))| (beside[k] - here[k]) / step).collect()
+    let by_design: Vec<&[Vec<f64>]> = solved.chunks(loads).collect();
+    let here = by_design[0];
+    let rates = |load: usize, k: usize| -> Vec<f64> {
+        let beside = by_design[1..].iter().zip(&designs[1..]);
+        beside.map(|(beside, (_, step))| (beside[load][k] - here[load][k]) / step).collect()
     };
     let still = vec![0.0; values.len()];
-    let curve =
-        |k: usize| Curve { sample: 0, weight: 1.0, values: vec![here[k], 0.0], rates: vec![rates(k), still.clone()] };
     let goals = plan.goals.len();
-    let limited = |(k, limit): (usize, &scene::optimum::NumberLimit)| Limited {
-        value: here[goals + k],
-        rates: rates(goals + k),
-        limit: limit.most,
+    let curve = |(load, k): (usize, usize)| Curve {
+        sample: 0,
+        weight: 1.0,
+        values: vec![here[load][k], 0.0],
+        rates: vec![rates(load, k), still.clone()],
     };
-    let curves = (0..goals).map(curve).collect();
-    let limited = plan.limits.iter().enumerate().map(limited).collect();
-    Ok((Evaluation { curves, limited }, here))
+    let limited = |(load, k): (usize, usize)| Limited {
+        value: here[load][goals + k],
+        rates: rates(load, goals + k),
+        limit: plan.limits[k].most,
+    };
+    let each = |count: usize| (0..loads).flat_map(move |load| (0..count).map(move |k| (load, k)));
+    let curves = each(goals).map(curve).collect();
+    let limited = each(plan.limits.len()).map(limited).collect();
+    Ok((Evaluation { curves, limited }, here.to_vec()))
 }

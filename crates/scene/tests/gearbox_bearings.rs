@@ -56,6 +56,44 @@ fn rolling_bearings_are_read_as_they_are_written() {
     assert!(matches!(own.size, RollingSize::Elements { pitch_diameter: 38.5, .. }), "{own:?}");
 }
 
+/// A designation gives type, boundary dimensions and contact angle; stated ratings and elements go before the estimate.
+#[test]
+fn a_designation_stands_for_type_and_dimensions() {
+    let deep = text();
+    let begin = deep.find("type = \"deep-groove-ball\"\nelements").unwrap();
+    let end = deep.find("damping_n_s_per_mm").unwrap();
+    let rating = "[rating]\nspeed_rpm = 1500.0\n";
+    let with = |words: &str| read(&format!("{}{words}\n{}\n{rating}", &deep[..begin], &deep[end..]));
+    let own = |words: &str| with(words).unwrap_or_else(|e| panic!("{words}: {e}")).bearings[0].rolling.clone().unwrap();
+    let found = own("designation = \"6205\"");
+    assert_eq!(found.kind, RollingKind::DeepGrooveBall);
+    assert_eq!(found.size, RollingSize::Dimensions { bore: 25.0, outer_diameter: 52.0, width: 15.0 });
+    assert!(found.has_life() && found.dynamic_rating.is_none());
+    let stated = own("designation = \"6205\"\nstatic_rating_kn = 7.8\ndynamic_rating_kn = 14.8");
+    assert_eq!(stated.size, RollingSize::Catalogue { bore: 25.0, outer_diameter: 52.0, static_rating: 7.8e3 });
+    assert_eq!(stated.dynamic_rating, Some(14.8e3));
+    let drawn = own("designation = \"6205\"\nelements = 9\nelement_diameter_mm = 7.938");
+    assert!(matches!(drawn.size, RollingSize::Elements { pitch_diameter: 38.5, .. }), "{drawn:?}");
+    let cone = own("designation = \"32206\"\ntakes_thrust = \"+z\"");
+    assert!((cone.contact_angle.to_degrees() - 14.0361).abs() < 1e-9 && cone.rows == [[0.0, 1.0]], "{cone:?}");
+    let mistakes = [
+        ("designation = \"22205\"", "no series of the designation \"22205\" is known", "deep groove balls 618"),
+        ("designation = \"6205-2RS1\"", "\"2RS1\" is no part of the basic designation", "radial_clearance_um"),
+        ("designation = \"6299\"", "no bearing \"6299\" is known", "from 6200 to 6240"),
+        ("designation = \"7205\"\ntakes_thrust = \"+z\"", "no letter for its contact angle", "7205B"),
+        ("designation = \"6205\"\nbore_mm = 25.0", "`bore_mm` beside a designation", "leave one of both out"),
+        ("designation = \"6205\"\ntype = \"deep-groove-ball\"", "`type` beside a designation", "leave one"),
+        ("designation = \"32206\"", "has no `takes_thrust`", "\"+z\" or \"-z\""),
+        ("designation = \"6205\"\npreload_n = 5.0", "a \"deep-groove-ball\" bearing has no `preload_n`", "play"),
+        ("designation = \"6205\"\nstiffness_n_per_mm = [1.0, 1.0, 1.0]", "with a `type` or `designation`", "follows"),
+    ];
+    for (words, said, hint) in mistakes {
+        let error = with(words).unwrap_err();
+        let told = format!("{error} {}", error.hint().unwrap_or_default());
+        assert!(told.contains(said) && told.contains(hint), "{words}: {told}");
+    }
+}
+
 /// A seat that floats, or has a shoulder on one side, is said of every type that takes thrust both ways.
 #[test]
 fn seats_take_the_thrust_that_the_file_says() {

@@ -2,6 +2,7 @@
 
 use std::{
     collections::BTreeMap,
+    ops::ControlFlow,
     path::Path,
     sync::{Arc, Mutex, PoisonError},
     time::Instant,
@@ -10,16 +11,21 @@ use std::{
 use analysis::{
     AnalysisError, GearCache, Interest, RemarksAtRest, RestRequest, SharedGears, SharedModels, SolvedAtRest,
     lumped::is_lumped,
+    optimum::optimise,
     results::{StaticHeadline, patterns, static_headline},
     solve_at_rest,
 };
+use answer::shown_units;
 use export::view::View;
 use ltca::StaticHistory;
 use report::{
     charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
     static_charts,
 };
-use scene::{Document, Model, Scene};
+use scene::{
+    Document, Model, Scene,
+    optimum::{DesignParameter, Optimisation, OptimisationWords},
+};
 use serde::{Deserialize, Serialize};
 use store::check_memory;
 
@@ -27,7 +33,7 @@ use crate::{
     fault::Fault,
     form::is_text,
     scene_text::{changed, flat},
-    sliders::{Slider, completed, sliders},
+    sliders::{Slider, completed, short, sliders, with_starts},
 };
 
 /// What a solve may take.
@@ -47,6 +53,19 @@ pub(crate) struct Change {
     /// Keys with dots, values as they are typed; nothing takes a key away.
     #[serde(default)]
     set: BTreeMap<String, String>,
+    /// Keys that a search may move between two ends, so that the transmission error is flattest; none: no search.
+    #[serde(default)]
+    search: BTreeMap<String, [f64; 2]>,
+}
+
+/// What a search has found.
+#[derive(Debug, Serialize)]
+struct Sought {
+    /// Values of the keys, as they are typed.
+    set: BTreeMap<String, String>,
+    /// Peak to peak of the static transmission error before and after, um.
+    peak_to_peak_um: [f64; 2],
+    evaluations: usize,
 }
 
 /// What the page gets.
@@ -61,6 +80,8 @@ struct Answer<'a> {
     effective: BTreeMap<String, String>,
     sliders: &'a [Slider],
     #[serde(skip_serializing_if = "Option::is_none")]
+    sought: Option<Sought>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<Fault>,
     #[serde(skip_serializing_if = "Option::is_none")]
     result: Option<Outcome<'a>>,
@@ -74,7 +95,7 @@ struct Outcome<'a> {
     headline: serde_json::Value,
     /// Some of it in words.
     glance: Vec<[String; 2]>,
-    charts: Vec<Plot<'a>>,
+    charts: Vec<Plot>,
     maps: Vec<FieldMap<'static>>,
     view: View,
     remarks: Vec<String>,
@@ -98,6 +119,8 @@ pub(crate) struct Taken {
     sliders: Vec<Slider>,
     /// The scene checked, or what is wrong with it.
     scene: Result<Scene, Fault>,
+    /// What a search may move.
+    search: BTreeMap<String, [f64; 2]>,
 }
 
 impl Taken {
@@ -135,7 +158,8 @@ impl<'a> Session<'a> {
         let before = flat(&change.text);
         let known = self.scene(&change.text).ok().and_then(|scene| Some((scene.gear_pair().ok()?, scene)));
         let moved = known.as_ref().map_or_else(Vec::new, |(pair, scene)| sliders(scene, pair, &before));
-        let set = completed(&change.set, &moved, &before);
+        let wanted = with_starts(&change.set, &change.search, &before);
+        let set = completed(&wanted, &moved, &before);
         let (text, refused) = match changed(&change.text, &set, |key| is_text(&self.schema, key)) {
             Ok(text) => (text, None),
             Err(fault) => (change.text.clone(), Some(fault)),
@@ -144,12 +168,51 @@ impl<'a> Session<'a> {
             None => self.scene(&text),
             Some(fault) => Err(fault),
         };
-        Taken { text, sliders: moved, scene }
+        Taken { text, sliders: moved, scene, search: change.search.clone() }
+    }
+
+    /// The text of a scene with the values at which its transmission error is flattest; `None` where nobody waits for it
+    /// any more.
+    fn sought(
+        &self,
+        text: &str,
+        search: &BTreeMap<String, [f64; 2]>,
+        interest: Interest<'_>,
+    ) -> Result<Option<(String, Sought)>, Fault> {
+        let words: Vec<String> = search.iter().map(|(key, [from, to])| format!("{key}={from:?}:{to:?}")).collect();
+        let words = OptimisationWords { parameters: &words, evaluations: EVALUATIONS, ..OptimisationWords::default() };
+        let plan = Optimisation::of_scene(self.document(text), &[], &words).map_err(|e| Fault::of_scene(text, &e))?;
+        self.fits(&plan.drawn)?;
+        let goes_on = |_: usize, _: Option<f64>| {
+            if (interest.positions)() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let found = match optimise(&self.models, &plan, goes_on) {
+            Ok(found) => found,
+            Err(AnalysisError::Cancelled) => return Ok(None),
+            Err(e) => return Err(Fault::of_analysis(text, &e)),
+        };
+        let value = |(own, value): (&DesignParameter, &f64)| (own.name().to_owned(), short(*value));
+        let set: BTreeMap<String, String> = plan.parameters.iter().zip(&found.values).map(value).collect();
+        let start = found.found.steps.first().and_then(|step| step.goal).unwrap_or_default();
+        let peak_to_peak_um = [start, found.plan.goal.value(&found.evaluation.curves)];
+        let moved = changed(text, &set, |key| is_text(&self.schema, key))?;
+        Ok(Some((moved, Sought { set, peak_to_peak_um, evaluations: found.found.steps.len() })))
     }
 
     /// The answer to a move as JSON; `None` where nobody waits for it any more.
     pub fn answer(&self, number: u64, taken: Taken, interest: Interest<'_>) -> Option<Vec<u8>> {
-        let Taken { text, sliders, scene } = taken;
+        let Taken { mut text, sliders, mut scene, search } = taken;
+        let mut sought = None;
+        if scene.is_ok() && !search.is_empty() {
+            match self.sought(&text, &search, interest) {
+                Ok(None) => return None,
+                Ok(Some((moved, found))) => {
+                    scene = self.scene(&moved);
+                    (text, sought) = (moved, Some(found));
+                }
+                Err(fault) => scene = Err(fault),
+            }
+        }
         let effective = scene.as_ref().map_or_else(|_| BTreeMap::new(), |scene| flat(&scene.to_toml()));
         let solved = match scene.and_then(|scene| self.solved(&text, &scene, interest)) {
             Ok(None) => return None,
@@ -162,6 +225,7 @@ impl<'a> Session<'a> {
             written: flat(&text),
             effective,
             sliders: &sliders,
+            sought,
             fault: None,
             result: None,
         };
@@ -173,12 +237,7 @@ impl<'a> Session<'a> {
 
     /// The checked scene of a text, where this page can show it.
     fn scene(&self, text: &str) -> Result<Scene, Fault> {
-        let document = {
-            let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-            *last = last.edited(text.to_owned());
-            last.clone()
-        };
-        let scene = document.scene(&[]).map_err(|e| Fault::of_scene(text, &e))?;
+        let scene = self.document(text).scene(&[]).map_err(|e| Fault::of_scene(text, &e))?;
         if scene.motion.is_some() || is_lumped(&scene) {
             let fault = Fault::new("this page shows a pair at rest, and the scene asks for a motion", AT_REST);
             return Err(fault.about(if is_lumped(&scene) { "analysis.model" } else { "analysis.kind" }));
@@ -188,6 +247,13 @@ impl<'a> Session<'a> {
             return Err(fault.about("analysis.model"));
         }
         Ok(scene)
+    }
+
+    /// The text with the files that it names, of which those of the text before are not read again.
+    fn document(&self, text: &str) -> Document {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        *last = last.edited(text.to_owned());
+        last.clone()
     }
 
     /// Whether memory holds what a scene needs, now.
@@ -217,6 +283,9 @@ impl<'a> Session<'a> {
     }
 }
 
+/// Evaluations of a search at the most.
+const EVALUATIONS: u32 = 30;
+
 const AT_REST: &str = "take `kind = \"static\"` and `model = \"reduced\"` in [analysis]; `ale-gear run` solves motions";
 const HELD: &str = "take `model = \"reduced\"` in [analysis]; `ale-gear run` solves it";
 
@@ -237,7 +306,7 @@ fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) ->
         Ok(drawn) => drawn,
         Err(fault) => return json(&Answer { fault: Some(fault), ..answer }),
     };
-    let charts = static_charts(scene, history);
+    let charts = static_charts(scene, history, &headline.ste_harmonics_um);
     let result = Outcome {
         name: &scene.name,
         solve_ms: *solve_ms,
@@ -246,7 +315,7 @@ fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) ->
         charts: charts.iter().map(LineChart::plot).collect(),
         maps,
         view,
-        remarks: history.remarks.iter().map(ToString::to_string).collect(),
+        remarks: history.remarks.iter().map(|said| shown_units(&said.to_string())).collect(),
     };
     json(&Answer { result: Some(result), ..answer })
 }
@@ -276,7 +345,7 @@ fn glance(scene: &Scene, headline: &StaticHeadline) -> Vec<[String; 2]> {
         rows.push(("face load factor", format!("{factor:.3}")));
     }
     rows.push(("mesh frequency", format!("{mesh_hz:.0} Hz")));
-    rows.into_iter().map(|(what, value)| [what.to_owned(), value]).collect()
+    rows.into_iter().map(|(what, value)| [what.to_owned(), shown_units(&value)]).collect()
 }
 
 /// Numbers, texts and lists: JSON refuses none of them.

@@ -44,8 +44,8 @@ fn load(scene: &Scene) -> [Slider; 2] {
         Slider { group: "load", key: key.into(), label, unit, ends: [step, most], step, rest: step }
     };
     let (torque, speed) = (scene.operation.torque_nm, scene.operation.speed_rpm);
-    let torque = of("operation.torque_nm", "torque", "N m", round_up(if torque > 0.0 { 2.0 * torque } else { 100.0 }));
-    let speed = of("operation.speed_rpm", "speed", "1/min", round_up(2.0 * speed));
+    let torque = of("operation.torque_nm", "torque", "N·m", round_up(if torque > 0.0 { 2.0 * torque } else { 100.0 }));
+    let speed = of("operation.speed_rpm", "speed", "rpm", round_up(2.0 * speed));
     [Slider { ends: [0.0, torque.ends[1]], rest: 0.0, ..torque }, speed]
 }
 
@@ -60,7 +60,7 @@ fn flank(group: &'static str, gear: &Gear, module: f64, written: &Written) -> Ve
     };
     let amount = |name: &str, label, ends: [f64; 2]| {
         let step = (ends[1] / NOTCHES).min(0.5);
-        Slider { group, key: key(name), label, unit: "um", ends, step, rest: 0.0 }
+        Slider { group, key: key(name), label, unit: "µm", ends, step, rest: 0.0 }
     };
     let (relief, small) = (round_up(15.0 * module), round_up(10.0 * module));
     let start = |what: &str, label, shares: [f64; 3]| start(gear, &key, what, (group, label), shares, written);
@@ -118,7 +118,7 @@ fn misalignment(scene: &Scene, written: &Written) -> Vec<Slider> {
     let step = (most / NOTCHES).clamp(0.1, 1.0);
     let of = |(name, label): (&str, &'static str)| {
         let (group, key, ends) = ("misalignment", misaligned(name), [-most, most]);
-        Slider { group, key, label, unit: "um", ends, step, rest: 0.0 }
+        Slider { group, key, label, unit: "µm", ends, step, rest: 0.0 }
     };
     names.map(of).into()
 }
@@ -157,8 +157,25 @@ pub(crate) fn completed(changes: &BTreeMap<String, String>, all: &[Slider], writ
     complete
 }
 
+/// Changes with what a search may move: a relief that the scene lacks begins as one of nothing, from where it starts as
+/// well as one that is moved by hand.
+pub(crate) fn with_starts(
+    changes: &BTreeMap<String, String>,
+    search: &BTreeMap<String, [f64; 2]>,
+    written: &Written,
+) -> Written {
+    let mut all = changes.clone();
+    let is_new = |key: &&String| !written.contains_key(*key) && !changes.contains_key(*key) && !key.contains("_start_");
+    for key in search.keys().filter(is_new) {
+        let relief = key.ends_with("_relief_um");
+        // Anything but nothing brings its start with it.
+        all.insert(key.clone(), if relief { "0.001" } else { "0.0" }.to_owned());
+    }
+    all
+}
+
 /// A number without the digits that sums leave.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.6}").parse().unwrap_or(value);
     format!("{rounded:?}")
 }

@@ -50,9 +50,16 @@ const MAY_BE_NULL: [&str; 29] = [
 /// Figures that lumped models fed by a number of their own have no value of, and a pair without a load.
 const OF_A_LOADED_MESH: [&str; 2] = [".mean_mesh_stiffness_n_per_um", ".mean_contact_line_length_mm"];
 
-/// Columns of a sweep that have no value where the motion does not come back, or was not asked.
-const MAY_BE_NAN: [&str; 5] =
-    ["period_cycles", "section_period", "lyapunov_per_s", "lyapunov_error_per_s", "periodicity"];
+/// Columns that have no value where the motion does not come back or was not asked, or where a start has no motion.
+const MAY_BE_NAN: [&str; 7] = [
+    "period_cycles",
+    "section_period",
+    "lyapunov_per_s",
+    "lyapunov_error_per_s",
+    "periodicity",
+    "attractor",
+    "warm_up_cycles",
+];
 
 /// What was found.
 #[derive(Debug, Default)]

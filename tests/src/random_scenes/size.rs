@@ -26,6 +26,8 @@ const SAME: f64 = 1e-9;
 const IN_BINS: f64 = 1e-4;
 /// The same of a stiffness whose unit has a broken power: it is rounded.
 const ROUNDED: f64 = 1e-6;
+/// Slices, a key of the table of the contact, which the program chooses where a scene has none.
+const CHOSEN: [&str; 3] = ["contact", "contact.slices", "slices"];
 /// Exponent of two balls.
 const BALLS: f64 = 1.5;
 /// Columns that are noise of the solution.
@@ -94,6 +96,12 @@ pub fn tell(_: u64, scene: &RandomScene) -> Option<Told> {
         return None;
     }
     let mut table = whole;
+    // What the program chooses, it chooses again.
+    if !scene.draft.keys().iter().any(|key| key == CHOSEN[1])
+        && let Some(contact) = table.get_mut(CHOSEN[0]).and_then(Value::as_table_mut)
+    {
+        contact.remove(CHOSEN[2]);
+    }
     scale_table(&mut table, exponent);
     let same = match scene.model {
         "reduced" | "reduced+modes" if !is_at_rest(scene) => IN_BINS,

@@ -2,5 +2,6 @@
 //! references that this program did not make.
 
 mod adversarial;
+mod held_out_pairs;
 mod references;
 mod spur_positions;

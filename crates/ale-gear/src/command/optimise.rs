@@ -30,12 +30,13 @@ pub(super) struct OptimiseArgs {
     /// [default: tip reliefs, where they begin, lead crowning]
     #[arg(long, value_name = "WORDS", allow_hyphen_values = true)]
     vary: Vec<String>,
-    /// Torques at which it counts, N m, with commas between [default: the scene's]
+    /// Torques at which it counts, N m, with commas between; of a gearbox those of the first `[[torque]]`, others in
+    /// proportion [default: the document's]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     torques: Vec<f64>,
     /// A number of the headline that shall be small, of a pair or a gearbox, at rest or in time (`face_load_factor.0`), in
     /// place of the transmission error; of several the mean of their absolute values
-    #[arg(long, value_name = "KEY", conflicts_with_all = ["torques", "measure", "max_pressure", "max_edge_pressure", "front"])]
+    #[arg(long, value_name = "KEY", conflicts_with_all = ["measure", "max_pressure", "max_edge_pressure", "front"])]
     goal: Vec<String>,
     /// Limit of a number of the headline, with `--goal`; may be given again
     #[arg(long, value_name = "KEY=MOST", requires = "goal")]

@@ -538,8 +538,9 @@ fn swings(scratch: &Scratch, summary: &serde_json::Value) {
     let last: f64 = at.iter().zip(&force).filter(|(s, _)| **s == at[at.len() - 1]).map(|(_, f)| 0.5 * f * f).sum();
     assert!((last.sqrt() / rms[rms.len() - 1] - 1.0).abs() < 1e-12, "orders of unlike frequencies add up by squares");
     universal(scratch);
-    // Five of the box at rest, three of its vibration, ten of its motion: over time, energy, and five spectra.
-    assert_eq!(scratch.read("o/report.html").matches("<figure").count(), 18);
+    // Six of the box at rest and two patterns, five of its vibration, eleven of its motion: over time, energy, and five
+    // spectra.
+    assert_eq!(scratch.read("o/report.html").matches("<figure").count(), 24);
 }
 
 /// A strict reader of the universal file: marks, numbers of datasets, columns of every record; values against the table.

@@ -142,3 +142,29 @@ fn odd_bearings_are_solved_and_said() {
         assert!(balance.iter().all(|b| *b < 1e-7), "{changes:?}: {balance:?}");
     }
 }
+
+/// A bearing that is said by its designation alone has a life and a static safety; one note tells all that is estimated.
+#[test]
+fn designations_lead_to_lives_and_safeties() {
+    let scratch = changed(&[]);
+    let text = scratch.read("box.toml");
+    let (begin, end) = (text.find("type = \"deep-groove-ball\"").unwrap(), text.find("damping_n_s_per_mm").unwrap());
+    let text = format!("{}designation = \"6205\"\n{}\n[rating]\nspeed_rpm = 1500.0\n", &text[..begin], &text[end..]);
+    let scratch = scratch.file("said.toml", text);
+    let run = scratch.ale_gear(["run", "said.toml", "--out", "o", "--no-cache"]);
+    assert_eq!(run.code, Some(0), "{}\n{}", run.stderr, run.stdout);
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let own = &summary["bearings"][0]["rolling"];
+    assert_eq!(own["elements_per_row"], 9, "{own}");
+    let number = |key: &str| own[key].as_f64().unwrap_or_else(|| panic!("{key}: {own}"));
+    // 14.8 and 7.8 kN in a catalogue.
+    assert!((number("dynamic_rating_kn") / 14.8 - 1.0).abs() < 0.2, "{own}");
+    assert!((number("static_rating_kn") / 7.8 - 1.0).abs() < 0.2, "{own}");
+    let safety = (4200.0 / number("max_hertz_pressure_mpa")).powi(3);
+    assert!((number("static_safety") / safety - 1.0).abs() < 1e-12, "{own}");
+    assert_eq!(summary["headline"]["bearing_static_safety"][0], own["static_safety"]);
+    let life = summary["headline"]["bearing_life_h"].as_array().unwrap();
+    assert!(life[0].as_f64().unwrap() > 1.0 && life[1].is_null(), "{life:?}");
+    let estimated = run.stdout.matches("bearings are estimated from bore").count();
+    assert!(estimated == 1 && run.stdout.contains("fast, fixed: 9 balls of"), "{}", run.stdout);
+}

@@ -238,4 +238,4 @@ macro_rules! tutorials {
     };
 }
 
-tutorials!(cluster, first_pair, gear_whine, harris_map, own_mesh, quiet_over_torque, run_up);
+tutorials!(cluster, first_pair, gear_whine, gearbox, harris_map, own_mesh, quiet_over_torque, run_up);

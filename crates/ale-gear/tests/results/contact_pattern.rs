@@ -83,7 +83,7 @@ fn files_are_there_and_every_column_is_documented() {
         }
     }
     let page = RUN.read("o/report.html");
-    assert_eq!(page.matches("<svg").count(), 6, "five charts and the pattern");
+    assert_eq!(page.matches("<svg").count(), 10, "seven charts, the pattern, the transverse section with its mesh");
     let picture = RUN.read("o/contact_pattern.svg");
     for word in ["tip", "root", "MPa", "pinion, left flank", "wheel, left flank", "diameter [mm]", "z [mm]"] {
         assert!(picture.contains(word), "no `{word}` in the picture");

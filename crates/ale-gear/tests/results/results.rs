@@ -70,7 +70,7 @@ fn a_result_folder_is_complete_and_replaces_its_forerunner() {
 fn the_report_stands_alone() {
     let (scratch, ..) = run(ISO_SCENE);
     let page = scratch.read("deep/er/o/report.html");
-    assert_eq!(page.matches("<svg").count(), 5);
+    assert_eq!(page.matches("<svg").count(), 8, "six charts, the transverse section with its mesh");
     for forbidden in ["src=", "href=", "@import", "url("] {
         assert!(!page.contains(forbidden), "the page loads something by {forbidden}");
     }

@@ -63,7 +63,7 @@ fn root_stress_is_written_when_asked_for() {
         }
     }
     let page = scratch.read("o/report.html");
-    assert_eq!(page.matches("<svg").count(), 8);
+    assert_eq!(page.matches("<svg").count(), 12);
     assert!(page.contains("Largest principal root stress, wheel"));
 }
 
@@ -74,7 +74,7 @@ fn root_stress_is_left_out_by_default() {
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(!scratch.read("o/history.csv").contains("root_stress") && !run.stdout.contains("root tension"));
-    assert_eq!(scratch.read("o/report.html").matches("<svg").count(), 6);
+    assert_eq!(scratch.read("o/report.html").matches("<svg").count(), 10);
 }
 
 /// The model without a mesh has no fillets.

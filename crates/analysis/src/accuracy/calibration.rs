@@ -6,10 +6,9 @@ use std::{collections::BTreeMap, sync::LazyLock};
 
 use scene::Quantity;
 use serde::{Deserialize, Serialize};
-use study::Between;
 
 use super::{
-    CalibratedMesh, Features,
+    CalibratedMesh, Features, Seen,
     features::{FEATURES, is_spur},
 };
 
@@ -38,27 +37,6 @@ pub struct PairLaw {
 /// Difference over the scale that counts as none.
 pub const LEAST_DIFFERENCE: f64 = 1e-5;
 
-/// What a run shows of an error, in the unit of its number.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Seen {
-    /// What the shape of the curve adds to the number.
-    pub shift: f64,
-    /// Sizes that the error goes with.
-    pub sizes: Vec<f64>,
-}
-
-impl Seen {
-    /// The number itself, which is all that meshes and slices show.
-    pub fn number(value: f64) -> Self {
-        Self { shift: 0.0, sizes: vec![value] }
-    }
-
-    /// What a curve shows between its positions, and the difference from the number of every second of them.
-    pub fn of(between: &Between, halved: Option<f64>) -> Self {
-        Self { shift: between.shift, sizes: between.seen.into_iter().chain(halved).collect() }
-    }
-}
-
 impl PairLaw {
     /// Known part of the error, and the bound of the rest. A size that is not seen counts as none.
     pub fn of(&self, x: &Features, seen: &Seen, scale: f64) -> [f64; 2] {
@@ -75,6 +53,11 @@ impl PairLaw {
         let known = [0, FEATURES].contains(&self.known.len());
         known && self.spread.len() == FEATURES && all.into_iter().all(|a| a.is_finite())
     }
+}
+
+/// Bound of independent causes with bounds of their own: the root of the sum of squares.
+pub fn together(amounts: &[f64]) -> f64 {
+    amounts.iter().map(|amount| amount * amount).sum::<f64>().sqrt()
 }
 
 /// Logarithm of a size over the scale, of which the smallest count as none.

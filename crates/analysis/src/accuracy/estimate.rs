@@ -5,10 +5,11 @@ use scene::{Quantity, Scene};
 use study::Between;
 
 use super::{
-    Accuracy, Bound, Calibration, Cause, Curves, Features, PairLaw, Sample, Seen, Term,
+    Accuracy, Bound, Calibration, Cause, Curves, Features, PairLaw, Sample, Seen, Term, WholeForce,
     companion::{Companion, Companions, Standing, stride},
     coverage::{beyond_calibration, not_covered},
     features::features,
+    together,
 };
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork, StaticResult, error::in_scene, refused::Refusal,
@@ -85,6 +86,7 @@ struct SeenCycle {
     standing: Standing,
     positions: u32,
     features: Features,
+    whole: WholeForce,
     own: Sample,
     curves: Curves,
     /// At the positions of the companion.
@@ -115,6 +117,7 @@ impl SeenCycle {
             standing,
             positions,
             features: features(scene, &result.pair, &own),
+            whole: WholeForce::of(scene, &result.pair),
             own,
             curves: Curves::of(&result.history, scene.analysis.cycles as usize),
             sparse: sample(stride(positions))?,
@@ -134,12 +137,13 @@ impl SeenCycle {
     fn bound(&self, q: Quantity) -> Option<Bound> {
         let laws = Calibration::committed().of(q)?;
         let (own, scale) = (self.own.get(q)?, self.own.scale(q)?);
-        let of = |law: &PairLaw| law.of(&self.features, &Seen::number(own), scale);
+        let of = |law: &PairLaw| law.of(&self.features, &self.whole.number(q, own), scale);
         let mut mesh = of(&laws.of_mesh(self.standing.mesh())?.law);
         let mut slices = of(&laws.slices);
         let halved = self.halved.as_ref().and_then(|halved| Some(own - halved.get(q)?));
         // Positions that no shape can be told from have the law of the fewest, at the size of the number itself.
         let between = self.curves.between(q).unwrap_or(Between { shift: 0.0, seen: [own; 2] });
+        let between = self.whole.between(q, own, between);
         // Without half of them only the law of the fewest goes without a difference.
         let law = laws.of_positions(if halved.is_some() { self.positions } else { 0 })?;
         let mut positions = law.of(&self.features, &Seen::of(&between, halved), scale);
@@ -153,6 +157,7 @@ impl SeenCycle {
                 positions = widened(positions, halved.unwrap_or(0.0));
             }
         }
+        in_squares([&mut mesh[1], &mut slices[1], &mut positions[1]]);
         let terms = [
             (Cause::Mesh, mesh),
             (Cause::Slices, slices),
@@ -161,6 +166,14 @@ impl SeenCycle {
             (Cause::Iteration, [0.0, self.iteration * scale.abs()]),
         ];
         Some(Bound::new(q, own, terms.map(|(cause, [known, amount])| Term { cause, known, amount }).to_vec()))
+    }
+}
+
+/// Bounds of independent causes as parts of that of all together, which add up.
+fn in_squares(mut amounts: [&mut f64; 3]) {
+    let all = together(&amounts.each_ref().map(|amount| **amount));
+    for amount in amounts.iter_mut().filter(|_| all != 0.0) {
+        **amount *= **amount / all;
     }
 }
 

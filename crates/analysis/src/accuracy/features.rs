@@ -4,17 +4,20 @@ use geometry::GearPair;
 use lumped::iso::rim_ratio;
 use scene::{Quantity, Scene};
 
-use super::Sample;
-use crate::loaded_pair::LoadedPair;
+use super::{Sample, WholeForce};
 
 /// How many there are.
-pub const FEATURES: usize = 12;
+pub const FEATURES: usize = 14;
 
 /// What laws of errors know of a solved cycle, each of the order of one. Theory (64).
 pub type Features = [f64; FEATURES];
 
 /// Where the logarithm of a share ends.
 const LEAST_SHARE: f64 = 1e-4;
+/// Where the logarithm of a share of the contact lines ends.
+const LEAST_BARE: f64 = 1e-3;
+/// Distance from the whole force, over it, up to which one pair carries all: round-off.
+const ALONE: f64 = 1e-5;
 
 /// Features of a scene, its pair and a sample of its cycle.
 ///
@@ -32,6 +35,8 @@ const LEAST_SHARE: f64 = 1e-4;
 /// | 9 | 1 with tip relief |
 /// | 10 | 1 with crowning or misalignment |
 /// | 11 | ln of b / (10 m_n) |
+/// | 12 | 1 where one pair carries the whole force somewhere in the cycle: it does so on every mesh |
+/// | 13 | ln of the unloaded share of the contact lines |
 pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
     let helix = scene.pinion.helix_angle();
     let gears = [&pair.pinion, &pair.wheel];
@@ -41,8 +46,8 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
     let overlap = pair.overlap_ratio();
     let logarithm = |share: f64| share.clamp(LEAST_SHARE, 10.0).ln();
     let of = |quantity| sample.get(quantity).unwrap_or(0.0);
-    let loaded = LoadedPair::of(scene, pair);
-    let force = loaded.torque / (loaded.driven_base_radius() * pair.base_helix_angle().cos());
+    let on_others = WholeForce::of(scene, pair).left(of(Quantity::MaxPairForce));
+    let bare = 1.0 - of(Quantity::ContactLineLength) / pair.mean_contact_line_length();
     let flanks = [&scene.pinion, &scene.wheel].map(|gear| &gear.modification.drive);
     let given = |um: Option<f64>| um.is_some_and(|um| um != 0.0);
     let flag = |is: bool| f64::from(u8::from(is));
@@ -56,11 +61,13 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
         rim,
         teeth,
         logarithm(of(Quantity::PeakToPeakSte) / sample.deflection()),
-        logarithm(1.0 - of(Quantity::MaxPairForce) / force),
+        logarithm(on_others),
         overlap / (1.0 + overlap),
         flag(relief),
         flag(crowned),
         (pair.face_width() / (10.0 * scene.pair.normal_module_mm)).ln(),
+        flag(on_others.abs() < ALONE),
+        bare.max(LEAST_BARE).ln(),
     ]
 }
 
@@ -69,9 +76,12 @@ pub fn is_spur(x: &Features) -> bool {
     x[8] == 0.0
 }
 
+/// Share of the force beside the most loaded pair that many pairs have.
+pub(super) const USUAL_LEFT: f64 = 0.3;
+
 /// Features before anything is solved: of what only a solved cycle knows, what many pairs have.
 pub(super) fn features_before(scene: &Scene, pair: &GearPair) -> Features {
     let mut all = features(scene, pair, &Sample::new(|_| None, 1.0));
-    [all[6], all[7]] = [0.1f64.ln(), 0.3f64.ln()];
+    [all[6], all[7], all[12], all[13]] = [0.1f64.ln(), USUAL_LEFT.ln(), 0.0, 0.1f64.ln()];
     all
 }

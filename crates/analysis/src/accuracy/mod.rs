@@ -10,7 +10,7 @@
 //! | `analysis` | which bounds does a scene at rest get? |
 //! | `climb`, `rest_ladder` | which rung is exact enough? |
 //! | `rung`, `gear_memo` | which meshes are there, and which gears are reduced already? |
-//! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
+//! | `estimate`, `companion`, `solved_cycle`, `seen` | what is seen of the error of a run? |
 //! | `exactness` | what is said of a run's error in the end? |
 //! | `of_results` | what are the bounds of runs that are solved? |
 //! | `calibration`, `calibrated_mesh`, `features`, `law` | how does the error go with what is known of a run? |
@@ -38,12 +38,13 @@ mod of_results;
 mod quantity;
 mod rest_ladder;
 mod rung;
+mod seen;
 mod solved_cycle;
 
 pub use analysis::StaticAnalysis;
 pub use bound::{Bound, Cause, Term};
 pub use calibrated_mesh::CalibratedMesh;
-pub use calibration::{Calibration, MeshLaw, PairLaw, PositionsLaw, QuantityLaws, Seen, logarithm};
+pub use calibration::{Calibration, MeshLaw, PairLaw, PositionsLaw, QuantityLaws, logarithm, together};
 pub(crate) use climb::{Climbed, Ladder, climb};
 pub(crate) use companion::{Companions, stride};
 pub use curves::Curves;
@@ -57,4 +58,5 @@ use quantity::goes_with_deflection;
 pub use rung::Rung;
 pub(crate) use rung::has_own_mesh;
 pub use scene::Quantity;
+pub use seen::{Seen, WholeForce};
 pub use solved_cycle::SolvedCycle;

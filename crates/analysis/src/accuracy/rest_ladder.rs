@@ -4,9 +4,16 @@ use geometry::GearPair;
 use scene::{Model, Quantity, Scene, Tolerance};
 
 use super::{
-    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Features, Rung, Sample, Seen, TriedRung, climb::Ladder,
-    companion::Companions, estimate::estimate, features, features::features_before, gear_memo::GearMemo,
-    goes_with_deflection, rung::has_own_mesh,
+    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Features, Rung, Sample, Seen, TriedRung, WholeForce,
+    climb::Ladder,
+    companion::Companions,
+    estimate::estimate,
+    features,
+    features::{USUAL_LEFT, features_before},
+    gear_memo::GearMemo,
+    goes_with_deflection,
+    rung::has_own_mesh,
+    together,
 };
 use crate::{AnalysisError, GearCache, Observer, StaticResult, StaticSink, statics::CycleAnalysis};
 
@@ -142,10 +149,10 @@ impl Ladder for RestLadder<'_> {
     }
 }
 
-/// What the mesh of a rung makes of a bound by its law, over the scale of the quantity; `own`: its value over the scale.
-fn foreseen(rung: Rung, quantity: Quantity, features: &Features, own: f64) -> Option<f64> {
+/// What the mesh of a rung makes of a bound by its law, over the scale of the quantity; sizes as well.
+fn foreseen(rung: Rung, quantity: Quantity, features: &Features, seen: &Seen) -> Option<f64> {
     let law = &Calibration::committed().of(quantity)?.of_mesh(CalibratedMesh::Rung(rung.elements_profile))?.law;
-    let [known, within] = law.of(features, &Seen::number(own), 1.0);
+    let [known, within] = law.of(features, seen, 1.0);
     Some(known.abs() + within)
 }
 
@@ -168,13 +175,15 @@ impl FirstGuess {
                 _ => None,
             })
             .collect();
-        let of_mesh = |rung: Rung, q: Quantity| foreseen(rung, q, &features, 1.0).unwrap_or(0.0);
+        let size = |q: Quantity| if q == Quantity::MaxPairForce { USUAL_LEFT } else { 1.0 };
+        let seen = |q: Quantity| Seen { shift: 0.0, sizes: vec![size(q)] };
+        let of_mesh = |rung: Rung, q: Quantity| foreseen(rung, q, &features, &seen(q)).unwrap_or(0.0);
         let keeps = |rung: &Rung| shares.iter().all(|(q, share)| of_mesh(*rung, *q) <= MESH_SHARE * share);
         let rung = calibrated().find(keeps).or(calibrated().last()).unwrap_or(Rung::ALL[0]);
         let enough = |positions: &u32| {
             shares.iter().all(|(q, share)| {
                 let law = Calibration::committed().of(*q).and_then(|laws| laws.of_positions(*positions));
-                law.is_none_or(|law| law.usual <= share - of_mesh(rung, *q))
+                law.is_none_or(|law| together(&[law.usual, of_mesh(rung, *q)]) <= *share)
             })
         };
         let positions = [8, 16, 32, 64].into_iter().find(enough).unwrap_or(64);
@@ -197,8 +206,10 @@ fn enough(rung: Rung, bound: &Bound, result: &StaticResult, scene: &Scene) -> Op
     let sample = Sample::of(scene, &result.history, 1).ok()?;
     let (scale, features) = (sample.scale(bound.quantity)?, features(scene, &result.pair, &sample));
     let others: f64 = bound.terms.iter().filter(|t| t.cause != Cause::Mesh).map(|t| t.known.abs() + t.amount).sum();
-    let (room, own) = (bound.asked? - others, sample.get(bound.quantity)? / scale);
+    let own = WholeForce::of(scene, &result.pair).number(bound.quantity, sample.get(bound.quantity)?);
+    let own = Seen { sizes: own.sizes.iter().map(|size| size / scale).collect(), ..own };
+    let room = bound.asked? - others;
     let finer: Vec<Rung> = calibrated().filter(|r| *r > rung).collect();
-    let keeps = |r: &&Rung| foreseen(**r, bound.quantity, &features, own).is_some_and(|share| share * scale <= room);
+    let keeps = |r: &&Rung| foreseen(**r, bound.quantity, &features, &own).is_some_and(|share| share * scale <= room);
     finer.iter().find(keeps).or(finer.first()).copied()
 }

@@ -4,16 +4,13 @@ use crate::remark;
 use gearbox::{
     Bearing, GearboxError, GearboxPosition, Train,
     rolling_bearing::{
-        AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, LifeModification, RollerGeometry, RollerProfile,
-        RollingBearing, RollingBearingError, RollingElements, RollingFriction, RollingState, Row,
+        AxialSeat, AxialSetting, BallGeometry, BoundaryDimensions, Catalogue, Filling, LifeModification,
+        RollerGeometry, RollerProfile, RollingBearing, RollingBearingError, RollingElements, RollingFriction,
+        RollingState, Row,
     },
 };
 use nalgebra::{Matrix6, Vector5};
 use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize, ThrustSeat};
-
-/// Pressures from which on balls and rollers leave dents (ISO 76), MPa.
-const BALLS_DENT: f64 = 4200.0;
-const ROLLERS_DENT: f64 = 4000.0;
 
 /// Tilts that catalogues let deep groove balls and rollers have at most, 10 and 4 minutes, rad.
 const BALLS_TILT: f64 = 2.9e-3;
@@ -32,8 +29,14 @@ pub struct RollingLoad {
     pub elements: RollingElements,
     /// Rolling elements of all rows.
     pub count: usize,
-    /// Whether they are estimated from the catalogue's values.
+    /// Whether they are estimated, from the catalogue's values or from boundary dimensions.
     pub is_estimated: bool,
+    /// Static and dynamic rating, N, C_0 and C; the latter where it is stated or has a designation to be estimated from.
+    pub ratings: (f64, Option<f64>),
+    /// Whether the dynamic rating is estimated.
+    pub is_rating_estimated: bool,
+    /// S_0 of ISO 76 at the largest pressure; `None` without load.
+    pub static_safety: Option<f64>,
     /// Mean of its tangents: x, y, z and the turns about x and y, N/mm, N, N mm.
     pub stiffness: [[f64; 5]; 5],
     /// Largest force of a rolling element, N.
@@ -142,7 +145,7 @@ fn life(
     states: &[&RollingState],
     turns: &BearingTurns,
 ) -> Option<BearingLife> {
-    let rating = own.dynamic_rating?;
+    let rating = dynamic_rating(own, law.elements())?;
     let damage = |s: &&RollingState| law.damage(&Vector5::from_fn(|k, _| s.displacement[k]), rating);
     let used = states.iter().map(damage).sum::<f64>() / states.len().max(1) as f64;
     if used.is_nan() || used <= 0.0 {
@@ -201,6 +204,7 @@ fn elements(own: &GearboxRolling) -> Result<RollingElements, RollingBearingError
     let GearboxRolling { contact_angle, conformity, .. } = *own;
     let profile = if own.straight_rollers { RollerProfile::Straight } else { RollerProfile::Logarithmic };
     let has_balls = has_balls(own.kind);
+    let filling = if own.kind == RollingKind::DeepGrooveBall { Filling::Eccentric } else { Filling::Around };
     Ok(match own.size {
         RollingSize::Elements { elements, diameter, pitch_diameter, .. } if has_balls => {
             let elements = elements as usize;
@@ -213,14 +217,26 @@ fn elements(own: &GearboxRolling) -> Result<RollingElements, RollingBearingError
         }
         RollingSize::Catalogue { bore, outer_diameter, static_rating } => {
             let catalogue = Catalogue { bore, outer_diameter, static_rating, rows: own.rows.len() };
-            let filling = if own.kind == RollingKind::DeepGrooveBall { Filling::Eccentric } else { Filling::Around };
             if has_balls {
                 RollingElements::Balls(catalogue.balls(filling, contact_angle, conformity)?)
             } else {
                 RollingElements::Rollers(catalogue.rollers(contact_angle, profile)?)
             }
         }
+        RollingSize::Dimensions { bore, outer_diameter, width } => {
+            let dimensions = BoundaryDimensions { bore, outer_diameter, width };
+            if has_balls {
+                RollingElements::Balls(dimensions.balls(filling, contact_angle, conformity)?)
+            } else {
+                RollingElements::Rollers(dimensions.rollers(contact_angle, profile)?)
+            }
+        }
     })
+}
+
+/// C as it is stated, or estimated of a bearing with a designation, N.
+fn dynamic_rating(own: &GearboxRolling, elements: &RollingElements) -> Option<f64> {
+    own.dynamic_rating.or_else(|| own.designation.as_ref().map(|_| elements.dynamic_rating(own.rows.len())))
 }
 
 fn has_balls(kind: RollingKind) -> bool {
@@ -240,13 +256,18 @@ pub(super) fn rolling_load(
     let mean = share * states.iter().map(|s| s.stiffness).sum::<Matrix6<f64>>();
     let most = |of: &dyn Fn(&RollingState) -> f64| states.iter().map(|s| of(s)).fold(0.0, f64::max);
     let loaded = || states.iter().map(|s| s.loaded);
+    let pressure = most(&|s| s.pressure);
+    let elements = law.elements();
     Some(RollingLoad {
+        ratings: (elements.static_rating(rolling.rows.len()), dynamic_rating(rolling, elements)),
+        is_rating_estimated: rolling.dynamic_rating.is_none() && rolling.designation.is_some(),
+        static_safety: elements.static_safety(pressure),
         elements: *law.elements(),
         count: law.count(),
-        is_estimated: matches!(rolling.size, RollingSize::Catalogue { .. }),
+        is_estimated: !matches!(rolling.size, RollingSize::Elements { .. }),
         stiffness: std::array::from_fn(|k| std::array::from_fn(|m| mean[(k, m)])),
         element_force: most(&|s| s.element_force),
-        pressure: most(&|s| s.pressure),
+        pressure,
         loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
         speed_rpm: turns.map(|turns| turns.speed_rpm),
         spectrum_life_h: None,
@@ -262,6 +283,28 @@ pub(super) fn rolling_load(
     })
 }
 
+/// One note on all bearings whose inside or rating is estimated; none without.
+pub(super) fn estimates<'a>(all: impl Iterator<Item = (&'a str, &'a RollingLoad)>) -> Option<answer::Remark> {
+    let of = |(name, load): (&str, &RollingLoad)| {
+        let inside = load.is_estimated.then(|| match &load.elements {
+            RollingElements::Balls(b) => {
+                format!("{} balls of {:.2} mm on a circle of {:.1} mm", b.elements, b.diameter, b.pitch_diameter)
+            }
+            RollingElements::Rollers(r) => {
+                let size = format!("{:.2} x {:.2} mm", r.diameter, r.length);
+                format!("{} rollers of {size} on a circle of {:.1} mm", r.elements, r.pitch_diameter)
+            }
+        });
+        let (static_n, dynamic_n) = load.ratings;
+        let rating = dynamic_n.filter(|_| load.is_rating_estimated);
+        let rating = rating.map(|dynamic_n| format!("C {:.1} kN, C_0 {:.1} kN", 1e-3 * dynamic_n, 1e-3 * static_n));
+        let words: Vec<String> = inside.into_iter().chain(rating).collect();
+        (!words.is_empty()).then(|| format!("{name}: {}", words.join(", ")))
+    };
+    let told: Vec<String> = all.filter_map(of).collect();
+    (!told.is_empty()).then(|| remark::bearings_estimated(told.len(), told.join("; ")))
+}
+
 /// What the user should hear of a rolling bearing; `worst`: under the worst of all loads of a spectrum as well.
 pub(super) fn remarks(
     name: &str,
@@ -270,26 +313,15 @@ pub(super) fn remarks(
     worst: LifeLimits,
 ) -> Vec<answer::Remark> {
     let mut said = Vec::new();
-    if load.is_estimated {
-        let what = match &load.elements {
-            RollingElements::Balls(b) => {
-                format!("{} balls of {:.2} mm on a circle of {:.1} mm", b.elements, b.diameter, b.pitch_diameter)
-            }
-            RollingElements::Rollers(r) => {
-                let size = format!("{:.2} x {:.2} mm", r.diameter, r.length);
-                format!("{} rollers of {size} on a circle of {:.1} mm", r.elements, r.pitch_diameter)
-            }
-        };
-        said.push(remark::bearing_estimated(name, what));
-    }
     if is_held {
         said.push(remark::bearing_on_held_shaft(name));
     } else if load.loaded[1] == 0 {
         said.push(remark::bearing_unloaded(name));
     }
-    let (dent, most, what) = match load.elements {
-        RollingElements::Balls(_) => (BALLS_DENT, BALLS_TILT, "ball"),
-        RollingElements::Rollers(_) => (ROLLERS_DENT, ROLLERS_TILT, "roller"),
+    let dent = load.elements.dent_pressure();
+    let (most, what) = match load.elements {
+        RollingElements::Balls(_) => (BALLS_TILT, "ball"),
+        RollingElements::Rollers(_) => (ROLLERS_TILT, "roller"),
     };
     if tilt > most && load.loaded[1] > 0 {
         let (tilt, most) = (1e3 * tilt, 1e3 * most);

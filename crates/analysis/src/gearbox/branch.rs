@@ -86,7 +86,7 @@ pub(super) fn branch(
     .plan();
     let mut found = run_phase(observer, "branch", PhaseWork::Unknown, |progress| {
         let of = mechanism.branch(&start, (&plan, u64::from(asked.periods)), |motion| {
-            progress.say(format!("{:.3} 1/min", motion.parameter));
+            progress.say(format!("{:.3} rpm", motion.parameter));
             if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         of.map_err(failed)

@@ -24,6 +24,7 @@ enum Of {
     MeshesRated(fn(&RatingHeadline) -> Option<f64>),
     BearingsRated(fn(&BearingLife) -> Option<f64>),
     BearingsLosing(fn(&RollingLoad) -> Option<f64>),
+    BearingsRolling(fn(&RollingLoad) -> Option<f64>),
     BearingsUnderSpectrum(fn(&RollingLoad) -> Option<f64>),
     MeshesUnderSpectrum(fn(&SpectrumRating) -> f64),
     Efficient,
@@ -53,7 +54,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 42] = [
+const NUMBERS: [Number; 43] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -135,13 +136,18 @@ const NUMBERS: [Number; 42] = [
         of: Of::Efficient,
     },
     list(
+        "bearing_static_safety",
+        "S_0 of ISO 76 of each bearing, from the pressure of its most loaded rolling element; `null` of a bearing of a stiffness or without load",
+        Of::BearingsRolling(|r| r.static_safety),
+    ),
+    list(
         "bearing_life_h",
-        "modified life of each bearing, the basic one without `contamination_factor`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn`",
+        "modified life of each bearing, the basic one without `contamination_factor`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn` or `designation`",
         Of::BearingsRated(BearingLife::rated_hours),
     ),
     list(
         "bearing_spectrum_life_h",
-        "life of each bearing under the load spectrum, modified with `contamination_factor`, else basic; with `spectrum`, `null` of a bearing without `dynamic_rating_kn`, and of one that does not tire",
+        "life of each bearing under the load spectrum, modified with `contamination_factor`, else basic; with `spectrum`, `null` of a bearing without `dynamic_rating_kn` or `designation`, and of one that does not tire",
         Of::BearingsUnderSpectrum(|r| r.spectrum_life_h),
     ),
     list(
@@ -290,6 +296,11 @@ impl GearboxResult {
                     let of = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
                     self.rates.bearing_losses.then(|| self.bearings.iter().map(of).collect())?
                 }
+                Of::BearingsRolling(own) => {
+                    let of = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
+                    let some = self.bearings.iter().any(|b| b.rolling.is_some());
+                    some.then(|| self.bearings.iter().map(of).collect())?
+                }
                 Of::BearingsUnderSpectrum(own) => {
                     let of = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
                     let asked = self.rates.spectrum && self.rates.lives;
@@ -343,6 +354,10 @@ impl GearboxResult {
             Of::Planets(_) => (of_planets > 0).then_some(Some(of_planets)),
             Of::MeshesRated(_) => rates.meshes.then_some(Some(file.meshes.len())),
             Of::Efficient => rates.efficiency.then_some(None),
+            Of::BearingsRolling(_) => {
+                let some = file.bearings.iter().any(|b| b.rolling.is_some());
+                some.then_some(Some(file.bearings.len()))
+            }
             Of::BearingsLosing(_) => rates.bearing_losses.then_some(Some(file.bearings.len())),
             Of::BearingsUnderSpectrum(_) => (rates.spectrum && rates.lives).then_some(Some(file.bearings.len())),
             Of::MeshesUnderSpectrum(_) => (rates.spectrum && rates.meshes).then_some(Some(file.meshes.len())),

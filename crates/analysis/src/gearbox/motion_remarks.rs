@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// What shows a resonance better over the speed.
-const CUT: &str = "more `cycles` or fewer `waterfall_cycles` show it better";
+const CUT: &str = "a longer run-up (`cycles`, `duration_s`) or fewer `waterfall_cycles` show it better";
 
 /// A gearbox in motion that is judged.
 #[derive(Clone, Copy)]
@@ -59,7 +59,11 @@ impl Judged<'_> {
         if asked.drive == GearboxDrive::Torque {
             said.extend(speed_changed(moved.reached.mean_input_speed * 60.0 / TAU, asked.speed_rpm));
         }
-        said.extend(moved.run_up.and_then(|run_up| run_up.remark("the input", "more `cycles` make it gentler")));
+        said.extend(
+            moved
+                .run_up
+                .and_then(|run_up| run_up.remark("the input", "a longer one (`cycles`, `duration_s`) is gentler")),
+        );
         // A motion that a torque drives has no given speed at which it could come back.
         let alone = moved.common_period.is_none() && asked.drive != GearboxDrive::Torque;
         said.extend(alone.then(remark::no_common_period));

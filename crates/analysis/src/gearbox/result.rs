@@ -4,9 +4,12 @@ use gearbox::mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak};
 use std::f64::consts::TAU;
 
 use answer::Remark;
-use gearbox::{GearMesh, GearboxPosition, LoadSharing, Structure, Train};
+use gearbox::{GearMesh, GearboxPosition, LoadSharing, MeshState, Structure, Train};
 use geometry::{GearPair, Side};
-use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
+use scene::{
+    Scene,
+    gearbox::{Gearbox, GearboxBearing, GearboxMesh},
+};
 
 use super::{
     GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
@@ -16,7 +19,11 @@ use super::{
     spectrum::SolvedSpectrum,
 };
 use crate::{
-    accuracy::Accuracy, pair_rating::RatingHeadline, plausible::effective_modulus, solution_remarks::large_error,
+    accuracy::Accuracy,
+    pair_rating::RatingHeadline,
+    plausible::effective_modulus,
+    results::{GearPattern, on_flank, pressed},
+    solution_remarks::large_error,
     waves::waves_on,
 };
 
@@ -93,10 +100,10 @@ impl Rates {
     pub fn of(file: &Gearbox) -> Self {
         let rated = |m: &GearboxMesh| m.scene.rating.is_some();
         let oiled = |m: &GearboxMesh| m.scene.rating.as_ref().is_some_and(|r| r.oil_temperature_c.is_some());
-        let has_life = |b: &GearboxBearing| b.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some());
+        let has_life = |b: &GearboxBearing| b.rolling.as_ref().is_some_and(|r| r.has_life());
         Self {
             meshes: file.meshes.iter().any(rated),
-            lives: file.bearings.iter().any(has_life),
+            lives: file.rating.is_some() && file.bearings.iter().any(has_life),
             spectrum: file.rating.as_ref().is_some_and(|r| r.spectrum.is_some()),
             bearing_losses: file.rating.as_ref().is_some_and(|r| r.viscosity.is_some()),
             efficiency: file.meshes.iter().all(oiled),
@@ -123,6 +130,8 @@ pub struct MeshResult {
     pub face_load_factor: Option<f64>,
     /// Largest pressure, MPa.
     pub max_pressure: f64,
+    /// Largest pressures on the driving flanks of gear 1 and gear 2; `None` where its contact has no slices.
+    pub patterns: Option<[GearPattern; 2]>,
     /// Rating of its pair; `None` where it is not asked for, or where the mesh carries nothing.
     pub rating: Option<RatingHeadline>,
     /// The largest transmission error over the module, and the largest pressure over E*.
@@ -164,6 +173,17 @@ fn output_power_w(file: &Gearbox, train: &Train) -> f64 {
     file.torques.iter().map(|own| 1e-3 * own.torque * turns(own.shaft)).sum()
 }
 
+/// What the positions press on the driving flanks of a mesh.
+fn patterns(scene: &Scene, pair: &GearPair, states: &[&MeshState]) -> Option<[GearPattern; 2]> {
+    let step = states.windows(2).map(|two| (two[1].cycles - two[0].cycles).abs()).fold(0.0, f64::max);
+    let slices = || states.iter().flat_map(|own| &own.slices);
+    let of = |gear: usize| {
+        let grid = pressed(scene, pair, gear, (slices(), step)).ok()?;
+        Some(on_flank(scene, pair, gear, grid))
+    };
+    scene.has_slices().then(|| Some([of(0)?, of(1)?]))?
+}
+
 /// Transmission errors that are too large for linear elasticity.
 fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<Remark> {
     let one = |(mesh, pair): (&MeshResult, &GearPair)| {
@@ -201,6 +221,7 @@ pub(super) fn result(
             misalignment,
             face_load_factor,
             max_pressure,
+            patterns: patterns(&reduced[i].scene, &meshes[i].pair, &own().collect::<Vec<_>>()),
             rating: ratings.get(i).cloned().flatten(),
             timing: train.meshing()[i].timing,
             gear_angles: train.meshing()[i].gear_angles(&meshes[i].pair),
@@ -227,6 +248,8 @@ pub(super) fn result(
     let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
     let mut remarks = remarks;
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
+    let rolling = bearings.iter().filter_map(|own| Some((own.name.as_str(), own.rolling.as_ref()?)));
+    remarks.extend(super::bearings::estimates(rolling));
     for (i, (own, load)) in file.bearings.iter().zip(&bearings).enumerate() {
         let is_held = file.shafts[own.shaft].held;
         let told = |r| {

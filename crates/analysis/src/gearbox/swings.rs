@@ -85,7 +85,7 @@ impl VibrationResult {
                 load,
                 listed.iter().map(|[a, b]| b - a + 1).sum::<usize>(),
                 forces.len(),
-                format!("1/min: {}", words.take(LISTED).collect::<Vec<_>>().join(", ")),
+                format!("rpm: {}", words.take(LISTED).collect::<Vec<_>>().join(", ")),
             );
             Some(said.about(&mesh.name))
         };

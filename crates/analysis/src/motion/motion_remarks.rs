@@ -179,5 +179,5 @@ pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<Remark> {
 /// A few speeds as text.
 fn listed(speeds_rpm: impl Iterator<Item = f64>) -> String {
     let first: Vec<String> = speeds_rpm.take(8).map(|n| format!("{n:.0}")).collect();
-    format!("1/min: {}", first.join(", "))
+    format!("rpm: {}", first.join(", "))
 }

@@ -32,3 +32,4 @@ mod scale_in_motion;
 mod scaled;
 mod solved;
 mod sound_meshes;
+mod step_bounds;

@@ -28,6 +28,7 @@ use sector::Surface;
 
 pub use record::ViewRecorder;
 use record::bands;
+pub use sector::outline;
 
 /// Positions of a mesh cycle at most.
 const FRAMES: usize = 16;

@@ -54,8 +54,8 @@ impl Surface {
     }
 }
 
-/// Radius (mm) and angle (rad) along the transverse section of tooth 0, counter-clockwise; of a ring as [`geometry::TransverseProfile`] has them, negative.
-fn outline(gear: &Gear) -> Vec<(f64, f64)> {
+/// Radius (mm) and angle (rad) along the transverse section of tooth 0, counter-clockwise; of a ring as [`geometry::TransverseProfile`] has them, negative, and on the side of -x.
+pub fn outline(gear: &Gear) -> Vec<(f64, f64)> {
     let profile = gear.profile();
     let involute = (0..=INVOLUTE).map(|i| {
         let u = profile.roll_tip() + (profile.roll_form() - profile.roll_tip()) * i as f64 / INVOLUTE as f64;

@@ -29,11 +29,11 @@ pub enum Filling {
 /// Angle of the pitch circle from the first to the last ball of an eccentric filling, rad.
 const FILLED: f64 = 190.0 * TAU / 360.0;
 /// Pitch of elements in a cage over their diameter.
-const CAGED: f64 = 1.15;
-const CAGED_CYLINDERS: f64 = 1.25;
+pub(super) const CAGED: f64 = 1.15;
+pub(super) const CAGED_CYLINDERS: f64 = 1.25;
 /// Diameter of rollers over the height from bore to outer diameter.
-const CYLINDERS: f64 = 0.55;
-const CONES: f64 = 0.47;
+pub(super) const CYLINDERS: f64 = 0.55;
+pub(super) const CONES: f64 = 0.47;
 /// Diameter of balls over the height from bore to outer diameter: least and largest.
 const BALLS: [f64; 2] = [0.15, 0.95];
 const HALVINGS: usize = 100;
@@ -83,10 +83,7 @@ impl Catalogue {
             contact_angle,
             conformity,
         };
-        let room = |d: f64| match filling {
-            Filling::Eccentric => 1.0 + FILLED / (2.0 * (d / pitch_diameter).asin()),
-            Filling::Around => PI * pitch_diameter / (CAGED * d),
-        };
+        let room = |d: f64| filled(filling, d, pitch_diameter);
         let rating = |d: f64, count: f64| of(d, 3).static_rating(count, self.rows);
         let ends = BALLS.map(|share| share * self.height());
         of(ends[1], 3).check()?;
@@ -132,6 +129,14 @@ impl Catalogue {
         let found = of(length);
         found.check()?;
         Ok(found)
+    }
+}
+
+/// Balls of a diameter that a filling lets in, not a whole number.
+pub(super) fn filled(filling: Filling, diameter: f64, pitch_diameter: f64) -> f64 {
+    match filling {
+        Filling::Eccentric => 1.0 + FILLED / (2.0 * (diameter / pitch_diameter).asin()),
+        Filling::Around => PI * pitch_diameter / (CAGED * diameter),
     }
 }
 

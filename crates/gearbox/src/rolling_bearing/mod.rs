@@ -4,11 +4,11 @@
 //! |---|---|
 //! | `hertz` | contact of a ball and a raceway: stiffness, pressure |
 //! | `geometry` | what is in a bearing, as drawings have it, and whether it fits |
-//! | `catalogue` | the same estimated from bore, outer diameter and static load rating |
+//! | `catalogue`, `dimensions` | the same estimated from bore, outer diameter and static load rating, or width |
 //! | `ball`, `roller` | one row of balls, of rollers: energy, force and tangent |
 //! | `reply` | force, moment and tangent of a bearing |
 //! | `law` | all rows together: [`RollingBearing`] |
-//! | `life` | how long it lasts |
+//! | `life`, `rating` | how long it lasts, and how far it is from dents |
 //! | `friction` | how much power it loses |
 //! | `seat` | which thrust its seat takes: rings that float |
 //! | `state` | what is told of it, and the linear bearing that stands for it |
@@ -18,18 +18,21 @@
 
 mod ball;
 mod catalogue;
+mod dimensions;
 mod error;
 mod friction;
 mod geometry;
 mod hertz;
 mod law;
 mod life;
+mod rating;
 mod reply;
 mod roller;
 mod seat;
 mod state;
 
 pub use catalogue::{Catalogue, Filling};
+pub use dimensions::BoundaryDimensions;
 pub use error::RollingBearingError;
 pub use friction::RollingFriction;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};

@@ -1,8 +1,8 @@
 //! Rolling bearings alone: contact, load distribution, energy, force and tangent, and what a catalogue says.
 
 use gearbox::rolling_bearing::{
-    AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, LifeModification, RollerGeometry, RollerProfile,
-    RollingBearing, RollingBearingError, RollingElements, RollingFriction, Row,
+    AxialSeat, AxialSetting, BallGeometry, BoundaryDimensions, Catalogue, Filling, LifeModification, RollerGeometry,
+    RollerProfile, RollingBearing, RollingBearingError, RollingElements, RollingFriction, Row,
 };
 use nalgebra::{Matrix5, SymmetricEigen, Vector5};
 
@@ -431,6 +431,100 @@ fn ribs_are_not_in_it() {
     let cones = made(RollingElements::Rollers(rollers(14.0, RollerProfile::Logarithmic)), &MIDDLE, 0.0, PLAYLESS);
     let thrust = |z: f64| cones.evaluate(&Vector5::new(0.0, 0.0, z, 0.0, 0.0)).force[2];
     assert!(thrust(0.05) < -100.0 && thrust(-0.05) == 0.0);
+}
+
+/// Ratings from boundary dimensions are within a fifth of those of a catalogue (SKF, rolling bearings, standard designs;
+/// kN); of cylindrical rollers, whose reinforced designs hold more and longer rollers, up to 27 % below them.
+#[test]
+fn boundary_dimensions_lead_to_ratings_of_catalogues() {
+    let balls = [
+        ("6004", [20.0, 42.0, 12.0], [9.95, 5.0]),
+        ("6010", [50.0, 80.0, 16.0], [22.9, 16.0]),
+        ("6206", [30.0, 62.0, 16.0], [20.3, 11.2]),
+        ("6210", [50.0, 90.0, 20.0], [37.1, 23.2]),
+        ("6220", [100.0, 180.0, 34.0], [127.0, 93.0]),
+        ("6306", [30.0, 72.0, 19.0], [29.6, 16.0]),
+        ("6310", [50.0, 110.0, 27.0], [65.0, 38.0]),
+        ("61910", [50.0, 72.0, 12.0], [14.6, 11.8]),
+    ];
+    let cylinders = [
+        ("NU206", [30.0, 62.0, 16.0], [44.0, 36.5]),
+        ("NU210", [50.0, 90.0, 20.0], [73.5, 69.5]),
+        ("NU310", [50.0, 110.0, 27.0], [127.0, 112.0]),
+        ("NU2206", [30.0, 62.0, 20.0], [55.0, 49.0]),
+        ("NU220", [100.0, 180.0, 34.0], [285.0, 305.0]),
+    ];
+    let cones = [
+        ("30208", 14.036, [40.0, 80.0, 19.75], [61.6, 68.0]),
+        ("32206", 14.036, [30.0, 62.0, 21.25], [50.1, 57.0]),
+        ("32210", 15.642, [50.0, 90.0, 24.75], [82.5, 100.0]),
+        ("31310", 28.811, [50.0, 110.0, 29.25], [106.0, 120.0]),
+        ("32010X", 15.75, [50.0, 80.0, 20.0], [60.5, 88.0]),
+    ];
+    let of = |[bore, outer_diameter, width]: [f64; 3]| BoundaryDimensions { bore, outer_diameter, width };
+    let holds = |name: &str, elements: RollingElements, wanted: [f64; 2], within: f64| {
+        let found = [elements.dynamic_rating(1), elements.static_rating(1)].map(|rating| 1e-3 * rating);
+        for (found, wanted) in found.into_iter().zip(wanted) {
+            assert!((found / wanted - 1.0).abs() < within, "{name}: {found} beside {wanted} kN");
+        }
+    };
+    for (name, size, wanted) in balls {
+        let own = of(size).balls(Filling::Eccentric, 0.0, [0.52, 0.53]).unwrap();
+        holds(name, RollingElements::Balls(own), wanted, 0.2);
+    }
+    for (name, size, wanted) in cylinders {
+        let own = of(size).rollers(0.0, RollerProfile::Logarithmic).unwrap();
+        holds(name, RollingElements::Rollers(own), wanted, 0.27);
+    }
+    for (name, angle, size, wanted) in cones {
+        let own = of(size).rollers(f64::to_radians(angle), RollerProfile::Logarithmic).unwrap();
+        holds(name, RollingElements::Rollers(own), wanted, 0.2);
+    }
+}
+
+/// C by the table of f_c in ISO 281: 1.3 f_c Z^(2/3) D^1.8 of balls to 4 %, 1.1 f_c L^(7/9) Z^(3/4) D^(29/27) of rollers
+/// to the table's last digit.
+#[test]
+fn dynamic_ratings_are_those_of_iso_281() {
+    for (gamma, f_c) in [(0.05, 46.7), (0.1, 55.5), (0.2, 59.9), (0.3, 56.0)] {
+        let own = BallGeometry {
+            elements: 8,
+            diameter: 10.0,
+            pitch_diameter: 10.0 / gamma,
+            contact_angle: 0.0,
+            conformity: [0.52, 0.53],
+        };
+        // Not as many go onto the circle of the largest, which does not count for the formula.
+        let wanted = 1.3 * f_c * 4.0 * 10f64.powf(1.8);
+        let found = RollingElements::Balls(own).dynamic_rating(1);
+        assert!((found / wanted - 1.0).abs() < 0.04, "gamma {gamma}: {found} beside {wanted} N");
+    }
+    for (gamma, f_c) in [(0.05, 74.1), (0.1, 84.2), (0.2, 88.7), (0.3, 83.8)] {
+        let own = RollerGeometry {
+            elements: 16,
+            diameter: 10.0,
+            length: 12.0,
+            pitch_diameter: 10.0 / gamma,
+            contact_angle: 0.0,
+            profile: RollerProfile::Logarithmic,
+        };
+        let wanted = 1.1 * f_c * 12f64.powf(7.0 / 9.0) * 8.0 * 10f64.powf(29.0 / 27.0);
+        let found = RollingElements::Rollers(own).dynamic_rating(1);
+        assert!((found / wanted - 1.0).abs() < 2e-3, "gamma {gamma}: {found} beside {wanted} N");
+    }
+}
+
+/// At the static rating the most loaded ball carries 5/Z of it, and S_0 is 1; an eighth of the load makes half the
+/// pressure, and S_0 is 8.
+#[test]
+fn static_safety_is_one_at_the_static_rating() {
+    let own = RollingElements::Balls(balls_209());
+    let [inner, _] = balls_209().contacts().unwrap();
+    let force = 5.0 * own.static_rating(1) / 9.0;
+    let pressure = inner.pressure(force);
+    assert!((own.static_safety(pressure).unwrap() - 1.0).abs() < 1e-9, "{pressure} MPa");
+    assert!((own.static_safety(0.5 * pressure).unwrap() - 8.0).abs() < 1e-8);
+    assert_eq!(own.static_safety(0.0), None);
 }
 
 /// 6206 of a catalogue (30 x 62 mm, C_0 = 11.2 kN): nine balls of 9.525 mm. 218: sixteen of 22.2 mm, from its own

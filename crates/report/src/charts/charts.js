@@ -62,20 +62,27 @@
   // A page may want its charts lower.
   const sizeOf = place => ({ width: Math.max(place.clientWidth, 240), height: parseInt(getComputedStyle(place).getPropertyValue("--chart-height")) || HEIGHT });
 
+  const idle = u => u.root.classList.toggle("idle", u.legend?.idx === null || u.legend?.idx === undefined);
+
   const lines = (plot, place) => {
-    const sticks = plot.kind === "sticks";
-    const series = plot.names.map((name, k) => ({
+    const bars = plot.kind === "bars", sticks = bars || plot.kind === "sticks";
+    const isGhost = k => plot.ghost !== undefined && k >= plot.ghost;
+    const series = plot.names.map((name, k) => isGhost(k) ? {
+      label: name, class: name ? undefined : "unnamed", stroke: () => ink("faint"), width: 1.2, spanGaps: true, dash: [5, 4],
+      points: { show: sticks, size: 9 }, paths: sticks ? () => null : undefined, value: (u, v) => short(v),
+    } : {
       // A curve without a name is more of the one before and needs no line in the legend.
       label: name, class: name ? undefined : "unnamed", stroke: () => shade(plot.colours[k]), width: plot.band && k > 0 ? 0.8 : 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
       points: { show: !sticks && !(plot.band && k > 0) && plot.data[0].length < 40, size: 4 },
-      paths: sticks ? uPlot.paths.bars({ size: [0.0, 4, 2] }) : undefined, fill: sticks ? () => shade(plot.colours[k]) : undefined,
+      paths: sticks ? uPlot.paths.bars({ size: bars ? [0.6, 60] : [0.0, 4, 2] }) : undefined, fill: sticks ? () => shade(plot.colours[k]) : undefined,
       value: (u, v) => short(v),
-    }));
+    });
     return new uPlot({
       ...sizeOf(place), series: [{ label: plot.x, value: (u, v) => short(v, 7) }, ...series], axes: axes(plot.x, plot.y),
-      scales: { x: { time: false }, y: { range: room(plot.zero) } },
+      scales: { x: { time: false, range: bars ? (u, low, high) => [low - 0.6, high + 0.6] : undefined }, y: { range: room(plot.zero) } },
       cursor: { sync: { key: plot.x }, drag: { x: true, y: false }, focus: { prox: 24 } },
-      legend: { live: true }, bands: plot.band ? [{ series: [2, 3], fill: plot.colours[1] + "26" }] : [],
+      // Without a cursor there is no value to be read.
+      legend: { live: true }, hooks: { ready: [idle], setLegend: [idle] }, bands: plot.band ? [{ series: [2, 3], fill: plot.colours[1] + "26" }] : [],
     }, plot.data, place);
   };
 
@@ -296,7 +303,7 @@
     };
     const update = data => {
       title.textContent = data.title;
-      const alike = shown && (isMap ? ends(shown) === ends(data) : ["lines", "sticks"].includes(data.kind)
+      const alike = shown && (isMap ? ends(shown) === ends(data) : ["lines", "sticks", "bars"].includes(data.kind)
         && ["kind", "names", "x", "y"].every(key => String(shown[key]) === String(data[key])));
       shown = data;
       if (!alike) make(data); else if (isMap) entry[0].cells(data); else renew(entry[0], data.data);

@@ -28,6 +28,9 @@ pub const COLOURS: [RGBColor; 12] = [
     RGBColor(110, 60, 20),
 ];
 
+/// Lines of a spectrum up to which they are bars.
+pub(super) const BARS: usize = 24;
+
 /// Which of the palette's colours a curve has: one without a name is more of the last that has one.
 pub fn colour_of<'a>(labels: impl Iterator<Item = &'a str>, k: usize) -> usize {
     labels.take(k + 1).enumerate().filter(|(_, label)| !label.is_empty()).last().map_or(0, |(own, _)| own)

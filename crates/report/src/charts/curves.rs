@@ -2,10 +2,11 @@
 
 use std::borrow::Cow;
 
+use answer::shown_units;
 use plotters::prelude::*;
 
 use super::{
-    curve::{COLOURS, Curve, colour_of},
+    curve::{BARS, COLOURS, Curve, colour_of},
     plot_data::{Plot, embedded},
 };
 
@@ -26,23 +27,36 @@ pub struct LineChart {
     pub curves: Vec<Curve>,
     /// Whether the value axis begins at zero.
     pub from_zero: bool,
+    /// Whether its only curve is the lines of a spectrum.
+    pub is_spectrum: bool,
 }
 
 impl LineChart {
     /// With the curves that have something to draw; `None` without any.
     pub fn new(title: &'static str, axes: [&'static str; 2], curves: &[Curve], from_zero: bool) -> Option<Self> {
         let curves = with_points(curves);
-        (!curves.is_empty()).then(|| Self { title, axes, curves: curves.into_owned(), from_zero })
+        (!curves.is_empty()).then(|| Self { title, axes, curves: curves.into_owned(), from_zero, is_spectrum: false })
+    }
+
+    /// The lines of a spectrum; `None` without any.
+    pub fn spectrum(title: &'static str, axes: [&'static str; 2], lines: Curve) -> Option<Self> {
+        Self::new(title, axes, &[lines], true).map(|chart| Self { is_spectrum: true, ..chart })
     }
 
     /// As a part of a report.
     pub fn figure(&self) -> Option<String> {
-        line_chart(self.title, self.axes[0], self.axes[1], &self.curves, self.from_zero)
+        match (self.is_spectrum, self.curves.first()) {
+            (true, Some(lines)) => stick_chart(self.title, self.axes[0], self.axes[1], lines.clone()),
+            _ => line_chart(self.title, self.axes[0], self.axes[1], &self.curves, self.from_zero),
+        }
     }
 
     /// As the script of a page takes it.
-    pub fn plot(&self) -> Plot<'_> {
-        Plot::new(self.title, self.axes[0], self.axes[1], &self.curves, self.from_zero)
+    pub fn plot(&self) -> Plot {
+        match (self.is_spectrum, self.curves.first()) {
+            (true, Some(lines)) => Plot::sticks(self.title, self.axes[0], self.axes[1], lines),
+            _ => Plot::new(self.title, self.axes[0], self.axes[1], &self.curves, self.from_zero),
+        }
     }
 }
 
@@ -106,8 +120,12 @@ fn with_points(curves: &[Curve]) -> Cow<'_, [Curve]> {
     Cow::Owned(curves.iter().filter(|c| seen(c)).cloned().collect())
 }
 
-/// Chart of the lines of a spectrum: one stick each.
+/// Chart of the lines of a spectrum: one bar each, a stick where there are many.
 pub fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
+    if curve.points.len() <= BARS {
+        let svg = picture(title, [x, y], std::slice::from_ref(&curve), true, Marks::Bars)?;
+        return Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]));
+    }
     let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
     let svg = picture(title, [x, y], &[Curve { label: curve.label.clone(), points: sticks }], true, Marks::Lines)?;
     Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
@@ -127,6 +145,8 @@ pub fn stills(page: &str) -> Vec<&str> {
 
 /// Dots of a curve in the still picture at most.
 const DOTS: usize = 3000;
+/// Half the width of a bar over the distance of two.
+const BAR: f64 = 0.3;
 /// Points of a curve up to which they are drawn large.
 const FEW: usize = 100;
 
@@ -140,6 +160,8 @@ const BAND_FILL: f64 = 0.15;
 enum Marks {
     Lines,
     Dots,
+    /// A bar from zero to each value.
+    Bars,
     /// A line, and the area between two others.
     Band,
 }
@@ -160,7 +182,10 @@ fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, mark
         };
         (low - if zero && low == 0.0 { 0.0 } else { margin }, high + margin)
     };
-    let (x_low, x_high) = span(|p| p.0, false);
+    let (mut x_low, mut x_high) = span(|p| p.0, false);
+    if marks == Marks::Bars {
+        (x_low, x_high) = (x_low - 2.0 * BAR, x_high + 2.0 * BAR);
+    }
     let (y_low, mut y_high) = span(|p| p.1, from_zero);
     let named = curves.iter().filter(|c| !c.label.is_empty()).count();
     if named > 1 {
@@ -169,7 +194,8 @@ fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, mark
     }
 
     let mut svg = String::new();
-    draw(&mut svg, title, axes, curves, [x_low, x_high, y_low, y_high], marks).ok()?;
+    let ([x, y], title) = (axes.map(shown_units), shown_units(title));
+    draw(&mut svg, &title, [&x, &y], curves, [x_low, x_high, y_low, y_high], marks).ok()?;
     Some(svg)
 }
 
@@ -223,7 +249,7 @@ fn draw(
         let curve = &curves[k];
         let colour = COLOURS[colour_of(curves.iter().map(|c| c.label.as_str()), k)];
         let shown = match marks {
-            Marks::Lines | Marks::Band => thinned(&curve.points),
+            Marks::Lines | Marks::Band | Marks::Bars => thinned(&curve.points),
             Marks::Dots => curve.points.iter().step_by(curve.points.len().div_ceil(DOTS).max(1)).copied().collect(),
         };
         let finite = shown.into_iter().filter(|(a, b)| a.is_finite() && b.is_finite());
@@ -235,6 +261,11 @@ fn draw(
                 chart.draw_series(LineSeries::new(finite, colour.stroke_width(width)))
             }
             Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
+            Marks::Bars => {
+                let bar =
+                    |(at, height): (f64, f64)| Rectangle::new([(at - BAR, 0.0), (at + BAR, height)], colour.filled());
+                chart.draw_series(finite.map(bar))
+            }
         };
         let series = series.map_err(|e| fail(&e))?;
         if curve.label.is_empty() {

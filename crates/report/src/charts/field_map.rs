@@ -1,6 +1,6 @@
 //! A quantity over a rectangle, in colours: a picture that prints, and the cells for the script that zooms.
 
-use answer::Numbers;
+use answer::{Numbers, shown_units};
 use base64::{Engine, prelude::BASE64_STANDARD};
 use plotters::prelude::*;
 use serde::{Serialize, Serializer};
@@ -18,6 +18,7 @@ const DIGITS: usize = 7;
 #[derive(Debug, Serialize)]
 pub struct Side<'a> {
     /// Quantity and unit.
+    #[serde(serialize_with = "units")]
     pub label: &'a str,
     /// Edges of the cells, ascending, one more than there are cells.
     #[serde(serialize_with = "short")]
@@ -28,10 +29,12 @@ pub struct Side<'a> {
 #[derive(Debug, Serialize)]
 pub struct FieldMap<'a> {
     /// What it shows.
+    #[serde(serialize_with = "units")]
     pub title: String,
     /// Horizontal and vertical side.
     pub sides: [Side<'a>; 2],
     /// Quantity with unit that the colours stand for.
+    #[serde(serialize_with = "units")]
     pub quantity: &'a str,
     /// Value of the first colour; of no meaning with decades.
     pub least: f64,
@@ -58,6 +61,11 @@ pub fn share(value: f64, largest: f64, decades: Option<f64>) -> f64 {
     }
 }
 
+/// With units as people read them.
+fn units<S: Serializer>(text: impl AsRef<str>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&shown_units(text.as_ref()))
+}
+
 fn short<S: Serializer>(edges: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
     // A copy of some hundred numbers.
     Numbers(edges.to_vec(), DIGITS).serialize(serializer)
@@ -77,7 +85,9 @@ impl FieldMap<'_> {
         let [x, y] = &self.sides;
         let ends = |side: &Side<'_>| Some((*side.edges.first()?, *side.edges.last()?));
         let ((left, right), (low, high)) = (ends(x)?, ends(y)?);
-        let place = draw_axes(&mut svg, &self.caption(), [x.label, y.label], [left, right, low, high]).ok()?;
+        let axes = [x.label, y.label].map(shown_units);
+        let axes = axes.each_ref().map(String::as_str);
+        let place = draw_axes(&mut svg, &shown_units(&self.caption()), axes, [left, right, low, high]).ok()?;
         let image = BASE64_STANDARD.encode(self.pixels([left, right, low, high])?);
         let [at_x, at_y, width, height] = place;
         let image = format!(

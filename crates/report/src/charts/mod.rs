@@ -10,6 +10,7 @@ mod log_panel;
 mod overlay;
 mod picture;
 mod plot_data;
+mod transverse_section;
 
 pub use campbell::campbell_chart;
 pub use contour_map::{GridValues, MapWords, coloured_dots, contour_map};
@@ -23,3 +24,4 @@ pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};
 pub use overlay::{LevelLine, Mark, Overlay, Room, words};
 pub(crate) use picture::write_picture;
 pub use plot_data::{Plot, embedded};
+pub use transverse_section::TransverseSection;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use answer::Numbers;
+use answer::{Numbers, shown_units};
 use serde::Serialize;
 
-use super::curve::{COLOURS, Curve, colour_of};
+use super::curve::{BARS, COLOURS, Curve, colour_of};
 
 /// Places on the abscissa at most; of a longer record each stretch keeps the least and the largest value of every
 /// curve.
@@ -21,6 +21,8 @@ pub enum Kind {
     Lines,
     /// A stick from zero to each value.
     Sticks,
+    /// A bar from zero to each value.
+    Bars,
     /// One curve that may turn back.
     Path,
     /// A dot for each point, curve by curve with an abscissa of its own.
@@ -30,23 +32,23 @@ pub enum Kind {
 /// A chart as the script takes it; `data` are the abscissa and, curve by curve, the ordinates; of dots abscissa and
 /// ordinate in turn.
 #[derive(Debug, Serialize)]
-pub struct Plot<'a> {
+pub struct Plot {
     kind: Kind,
-    title: &'a str,
-    x: &'a str,
-    y: &'a str,
+    title: String,
+    x: String,
+    y: String,
     zero: bool,
     /// Whether the area between the second and the third curve is filled.
     band: bool,
-    names: Vec<&'a str>,
+    names: Vec<String>,
     colours: Vec<String>,
     data: Vec<Numbers>,
 }
 
-impl<'a> Plot<'a> {
+impl Plot {
     /// Curves over one pair of axes; the value axis begins at zero if `zero`. A single curve that goes to and fro along
     /// the abscissa is a path.
-    pub fn new(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve], zero: bool) -> Self {
+    pub fn new(title: &str, x: &str, y: &str, curves: &[Curve], zero: bool) -> Self {
         let ascending: Option<Vec<Vec<(f64, f64)>>> = curves.iter().map(|c| ascending(&c.points)).collect();
         let (kind, columns) = match ascending {
             Some(curves) => (Kind::Lines, thinned(shared(curves))),
@@ -56,30 +58,33 @@ impl<'a> Plot<'a> {
     }
 
     /// A curve, and the upper and the lower edge of the band around it.
-    pub fn banded(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve]) -> Self {
+    pub fn banded(title: &str, x: &str, y: &str, curves: &[Curve]) -> Self {
         let plot = Self::new(title, x, y, curves, false);
         // A path has one curve alone.
         Self { band: plot.kind == Kind::Lines && curves.len() == 3, ..plot }
     }
 
-    /// One curve of sticks.
-    pub fn sticks(title: &'a str, x: &'a str, y: &'a str, curve: &'a Curve) -> Self {
+    /// One curve of sticks, or of bars where they are few.
+    pub fn sticks(title: &str, x: &str, y: &str, curve: &Curve) -> Self {
         // Of many lines side by side the highest one.
         let stretches = curve.points.chunks(curve.points.len().div_ceil(PLACES).max(1));
         let highest = stretches.filter_map(|part| part.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)));
         let (at, height) = highest.unzip();
-        Self::of(Kind::Sticks, [title, x, y], std::slice::from_ref(curve), true, vec![at, height])
+        let kind = if curve.points.len() <= BARS { Kind::Bars } else { Kind::Sticks };
+        Self::of(kind, [title, x, y], std::slice::from_ref(curve), true, vec![at, height])
     }
 
     /// A dot for each point.
-    pub fn dots(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve]) -> Self {
+    pub fn dots(title: &str, x: &str, y: &str, curves: &[Curve]) -> Self {
         let columns = curves.iter().flat_map(|curve| path(std::slice::from_ref(curve))).collect();
         Self::of(Kind::Dots, [title, x, y], curves, false, columns)
     }
 
-    fn of(kind: Kind, [title, x, y]: [&'a str; 3], curves: &'a [Curve], zero: bool, columns: Vec<Vec<f64>>) -> Self {
-        let names: Vec<&str> = curves.iter().map(|c| c.label.as_str()).collect();
-        let colours = (0..names.len()).map(|k| colour(colour_of(names.iter().copied(), k))).collect();
+    fn of(kind: Kind, words: [&str; 3], curves: &[Curve], zero: bool, columns: Vec<Vec<f64>>) -> Self {
+        let labels = || curves.iter().map(|c| c.label.as_str());
+        let colours = (0..curves.len()).map(|k| colour(colour_of(labels(), k))).collect();
+        let names = labels().map(str::to_owned).collect();
+        let [title, x, y] = words.map(shown_units);
         let digits = |k: usize| DIGITS[usize::from(k == 0 || matches!(kind, Kind::Path | Kind::Dots))];
         let data = columns.into_iter().enumerate().map(|(k, c)| Numbers(c, digits(k))).collect();
         Self { kind, title, x, y, zero, band: false, names, colours, data }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use analysis::{
-    gearbox::{GearboxMotionResult, GearboxResult, ReachedByMesh},
+    gearbox::{GearboxMotionResult, GearboxResult, ReachedByMesh, RunUpTorque},
     in_motion::FlankCertificate,
     motion::{ElasticHeadline, RunUp, RunUpHeadline},
 };
@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::motion_charts::{is_run_up, motion_charts};
 use crate::{
     ReportError,
-    page::{Cell, Grid, Part},
+    page::{Cell, Grid, Line, Part},
 };
 
 described::described! {
@@ -251,7 +251,8 @@ pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReduct
 /// [`ReportError`] where rows cannot be read back.
 pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Result<Vec<Part>, ReportError> {
     let Some(motion) = &result.motion else { return Ok(Vec::new()) };
-    let words = "Least and largest values are those of all rows; a peak to peak is the mean over the cycles of the mesh, of a                  run-up the largest of a cycle.";
+    let words = "Least and largest values are those of all rows; a peak to peak is the mean over the cycles of the mesh, of a \
+                 run-up the largest of a cycle.";
     let words = if is_run_up(motion) {
         format!("Orders over the speed and spectra are those of stretches of some cycles of the slowest mesh. {words}")
     } else {
@@ -286,8 +287,32 @@ pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> 
     let radial = Grid::new(["bearing", "least radial N", "largest N"]).rows(bearings);
     Ok(vec![
         Part::new("In motion").closing().words(words).grid(Grid::new(head).rows(meshes)).note(note),
+        run_up(result, motion),
         Part::more().grid(radial).figures(motion_charts(file, motion, answer)?),
     ])
+}
+
+/// How long a run-up takes, what its acceleration asks for, and where each mesh is worst.
+fn run_up(result: &GearboxResult, motion: &GearboxMotionResult) -> Part {
+    let Some(RunUpTorque { duration, inertia, load }) = motion.run_up else { return Part::more() };
+    let share = format!("N m at the input, {} % of the load", crate::tables::fixed(100.0 * inertia / load, 1));
+    let lines = [
+        Line::number("run-up lasts", duration, 3, "s"),
+        Line::number("largest torque that accelerates", 1e-3 * inertia, 2, share),
+        Line::number("torque of the loads", 1e-3 * load, 2, "N m at the input"),
+    ];
+    let rows = result.meshes.iter().zip(&motion.run_ups).filter_map(|(mesh, own)| {
+        let RunUpHeadline { peak_to_peak_dte_um: swing, normal_force_n: force, .. } = own.headline()?;
+        Some(vec![
+            Cell::text(&mesh.name),
+            Cell::number(swing.value, 3),
+            Cell::number(swing.driver_speed_rpm, 0),
+            Cell::number(force.value, 0),
+            Cell::number(force.driver_speed_rpm, 0),
+        ])
+    });
+    let head = ["mesh", "largest p-p DTE um", "at input 1/min", "largest force N", "at input 1/min"];
+    Part::new("Run-up").closing().lines(lines).grid(Grid::new(head).rows(rows))
 }
 
 /// After how long all meshes come back together.

@@ -34,7 +34,9 @@ pub(super) fn motion_charts(
     }
     if is_run_up(motion) {
         all.extend(over_speed(file, motion).into_iter().flatten());
-        all.extend(motion.campbell.iter().filter_map(super::vibration::campbell));
+        all.extend(
+            motion.campbell.iter().filter_map(|own| super::vibration::campbell(own, &|m| format!("natural mode {m}"))),
+        );
         all.extend(motion.waterfall.iter().flat_map(|own| waterfalls(file, own)));
         return Ok(all);
     }
@@ -87,7 +89,7 @@ pub(super) fn is_run_up(motion: &GearboxMotionResult) -> bool {
     !motion.orders.is_empty() && speed.span() > RUN_UP * speed.largest
 }
 
-fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> Result<[Option<String>; 4], ReportError> {
+fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> Result<[Option<String>; 5], ReportError> {
     let curves = |names: Vec<&str>, of: &dyn Fn(&GearboxInstant, usize) -> f64| -> Result<Vec<Curve>, ReportError> {
         let curve = |name: &str| Curve { label: name.to_owned(), points: Vec::with_capacity(motion.rows.len()) };
         let mut all: Vec<Curve> = names.into_iter().map(curve).collect();
@@ -104,14 +106,22 @@ fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> Result<[Option<Str
     let pressed = coast.into_iter().zip(&motion.reached.meshes).filter(|(_, mesh)| mesh.coast_normal_force > 0.0);
     forces.extend(pressed.map(|(own, _)| Curve { label: format!("{}, coast flanks", own.label), ..own }));
     let radial = curves(bearings, &|p, i| p.bearings[i].force[0].hypot(p.bearings[i].force[1]))?;
+    let swings = radial.iter().map(less_its_mean).collect::<Vec<_>>();
     let torque = curves(vec!["input"], &|p, _| 1e-3 * p.input_torque)?;
     let time = "time [s]";
     Ok([
         line_chart("Dynamic transmission error", time, "DTE [um]", &dte, false),
         line_chart("Normal force of the meshes", time, "force [N]", &forces, true),
         line_chart("Radial force of the bearings", time, "force [N]", &radial, true),
+        line_chart("Radial force of the bearings less its mean", time, "force less its mean [N]", &swings, false),
         line_chart("Torque on the input", time, "torque [N m]", &torque, false),
     ])
+}
+
+/// A curve about its mean.
+fn less_its_mean(of: &Curve) -> Curve {
+    let mean = of.points.iter().map(|(_, value)| value).sum::<f64>() / of.points.len().max(1) as f64;
+    Curve { label: of.label.clone(), points: of.points.iter().map(|(at, value)| (*at, value - mean)).collect() }
 }
 
 /// Orders of every mesh: its own transmission error and the force of the bearing that has most of it.

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use analysis::gearbox::{BearingLife, BearingLoad, GearboxResult};
+use analysis::gearbox::{BearingLife, BearingLoad, GearboxResult, MeshResult};
 use answer::Answer;
 use gearbox::{GearboxPosition, LoadSharing, PlanetShare, ShaftLine, line_load, load_shares};
 use minijinja::context;
@@ -12,8 +12,9 @@ use super::{branch, motion, norm, space::BoxInSpace, vibration};
 use crate::{
     ReportError,
     charts::{Curve, embedded, line_chart},
+    contact_files::pattern_figure,
     how_exact::how_exact,
-    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, escaped, render},
     pair_files::rating,
 };
 
@@ -46,6 +47,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(shafts(file, result));
     page.push(bearings(file, result));
     page.push(outputs(result));
+    page.push(patterns(result));
     result.accuracy.iter().flat_map(how_exact).for_each(|part| page.push(part));
     page.push(Part::new("Over the positions").figures(charts(file, result)));
     if let Some((asked, swings)) = file.vibration.as_ref().zip(result.vibration.as_ref()) {
@@ -142,7 +144,7 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     let rolls = result.bearings.iter().any(|b| b.rolling.is_some());
     let mut head = vec!["bearing", "shaft", "radial N", "F_x N", "F_y N", "F_z N", "tilt mrad"];
     if rolls {
-        head.extend(["element N", "Hertz MPa", "loaded", "k_x, k_y, k_z N/um"]);
+        head.extend(["element N", "Hertz MPa", "S_0", "loaded", "k_x, k_y, k_z N/um"]);
     }
     let loses = result.bearings.iter().any(|b| loss(b).is_some());
     if loses {
@@ -150,7 +152,11 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     }
     let lasts = result.bearings.iter().any(|b| life(b).is_some());
     if lasts {
-        head.extend(["P/C", "L10 h", "L10 modified h"]);
+        head.extend(["P/C", "L10 h"]);
+    }
+    let is_modified = result.bearings.iter().any(|b| life(b).and_then(|own| own.modified_hours()).is_some());
+    if is_modified {
+        head.push("L10 modified h");
     }
     let under_spectrum = result.rates.spectrum && lasts;
     if under_spectrum {
@@ -172,6 +178,7 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
             row.extend([
                 Cell::number(own.map(|r| r.element_force), 0),
                 Cell::number(own.map(|r| r.pressure), 0),
+                Cell::number(own.and_then(|r| r.static_safety), 1),
                 Cell::count(own.map_or_else(|| "-".to_owned(), |r| format!("{}/{}", r.loaded[1], r.count))),
                 Cell::count(stiffness.unwrap_or_else(|| "-".to_owned())),
             ]);
@@ -181,24 +188,28 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
         }
         if lasts {
             let own = life(b);
-            let modified = own.and_then(|own| own.modified_hours());
-            row.extend([
-                Cell::number(own.map(|own| own.over_rating), 3),
-                Cell::number(own.map(|own| own.hours), 0),
-                Cell::number(modified, 0),
-            ]);
+            row.extend([Cell::number(own.map(|own| own.over_rating), 3), Cell::number(own.map(|own| own.hours), 0)]);
+        }
+        if is_modified {
+            row.push(Cell::number(life(b).and_then(|own| own.modified_hours()), 0));
         }
         if under_spectrum {
             row.push(Cell::number(b.rolling.and_then(|own| own.spectrum_life_h), 0));
         }
         row
     });
-    let note = if lasts {
-        "Mean forces on the shafts, common axes. Lives after ISO/TS 16281 from the force of every rolling element, at 90 % \
-         reliability; P: radial load of the same life, C: dynamic rating. Modified: with oil and dirt, ISO 281."
-    } else {
-        "Mean forces on the shafts, common axes."
-    };
+    let notes = [
+        (true, "Mean forces on the shafts, common axes."),
+        (rolls, "S_0: static safety of ISO 76 from the pressure of the most loaded element."),
+        (rolls && !lasts, "Lives need `[rating]` with `speed_rpm`."),
+        (
+            lasts,
+            "L10: life after ISO/TS 16281 from the force of every rolling element, at 90 % reliability; P: radial load of the \
+             same life, C: dynamic rating.",
+        ),
+        (is_modified, "Modified: with oil and dirt, ISO 281."),
+    ];
+    let note = notes.into_iter().filter_map(|(is_told, words)| is_told.then_some(words)).collect::<Vec<_>>().join(" ");
     Part::new("Bearings").closing().grid(Grid::new(head).rows(rows)).note(note)
 }
 
@@ -208,6 +219,23 @@ fn loss(bearing: &BearingLoad) -> Option<f64> {
 
 fn life(bearing: &BearingLoad) -> Option<BearingLife> {
     bearing.rolling.and_then(|rolling| rolling.life)
+}
+
+/// Contact pattern of every mesh.
+fn patterns(result: &GearboxResult) -> Part {
+    let of = |mesh: &MeshResult| {
+        let figure = pattern_figure(mesh.patterns.as_ref()?)?;
+        Some([Content::Html(format!("<h3>{}</h3>", escaped(&mesh.name))), Content::Figures(vec![figure])])
+    };
+    let all = result.meshes.iter().filter_map(of).flatten();
+    let part = all.fold(Part::new("Contact patterns"), Part::with);
+    if part.contents.is_empty() {
+        return part;
+    }
+    part.note(
+        "Largest pressure over all positions on the driving flank of one tooth; grey: no contact line came there. Positions \
+         are those of the first mesh: of a slower mesh they show a part of the engagement.",
+    )
 }
 
 fn outputs(result: &GearboxResult) -> Part {
@@ -239,7 +267,13 @@ fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<String> {
     let angle = "angle of the input [deg]";
     let ste = (result.meshes.iter().enumerate())
         .map(|(i, m)| over(&m.name, &|p| 1e3 * (p.meshes[i].transmission_error - m.transmission_error[0])));
-    let forces = (result.bearings.iter().enumerate()).map(|(i, b)| over(&b.name, &|p| norm(p.bearings[i].force)));
+    let force = |i: usize| move |p: &GearboxPosition| norm(p.bearings[i].force);
+    let forces = (result.bearings.iter().enumerate()).map(|(i, b)| over(&b.name, &force(i)));
+    let count = result.positions.len().max(1) as f64;
+    let swings = (result.bearings.iter().enumerate()).map(|(i, b)| {
+        let mean = result.positions.iter().map(force(i)).sum::<f64>() / count;
+        over(&b.name, &|p| force(i)(p) - mean)
+    });
     let lags = (result.outputs.iter().enumerate())
         .map(|(i, o)| over(&output(file, i), &|p| 1e6 * (p.output_lags[i] - o.mean)));
     let loads = (result.meshes.iter().enumerate())
@@ -270,7 +304,8 @@ fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<String> {
         ),
         ("From input to output", angle, "lag less its mean [urad]", lags.collect(), false),
         ("Line load over the width", "height on gear 1 [mm]", "largest line load [N/mm]", loads.collect(), true),
-        ("Bearings", angle, "force [N]", forces.collect(), true),
+        ("Forces of the bearings", angle, "force [N]", forces.collect(), true),
+        ("Forces of the bearings less their means", angle, "force less its mean [N]", swings.collect(), false),
         ("Bending of the shafts, first position", "along the shaft [mm]", "off its axis [um]", lines.collect(), true),
     ];
     all.into_iter().filter_map(|(title, x, y, curves, zero)| line_chart(title, x, y, &curves, zero)).collect()

@@ -27,6 +27,7 @@ pub(super) struct BoxInSpace {
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct ShaftInSpace {
+    name: String,
     /// mm.
     origin: [f64; 3],
     /// From, to, outer and inner radius, mm.
@@ -39,6 +40,7 @@ struct ShaftInSpace {
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct GearInSpace {
+    name: String,
     shaft: usize,
     /// Mid-plane over the shaft's origin, mm.
     position: f64,
@@ -51,6 +53,7 @@ struct GearInSpace {
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct BearingInSpace {
+    name: String,
     shaft: usize,
     position: f64,
     /// Radius of the shaft in it, mm.
@@ -84,6 +87,7 @@ impl BoxInSpace {
             bearings: p.bearings.iter().map(|b| Numbers(b.force.to_vec(), DIGITS)).collect(),
         });
         let bearings = file.bearings.iter().map(|b| BearingInSpace {
+            name: b.name.clone(),
             shaft: b.shaft,
             position: b.position,
             radius: radius_at(file, b.shaft, b.position),
@@ -108,7 +112,13 @@ fn shaft(file: &Gearbox, result: &GearboxResult, i: usize) -> ShaftInSpace {
     });
     let sections = sections.collect();
     let nodes = result.positions.first().map_or_else(Vec::new, |p| p.shafts[i].positions.clone());
-    ShaftInSpace { origin: own.origin, sections, nodes: Numbers(nodes, DIGITS), ratio: result.ratios[i] }
+    ShaftInSpace {
+        name: own.name.clone(),
+        origin: own.origin,
+        sections,
+        nodes: Numbers(nodes, DIGITS),
+        ratio: result.ratios[i],
+    }
 }
 
 /// Natural motions at the lowest speed, cut into shafts; their nodes are those that stand at rest.
@@ -144,6 +154,7 @@ fn gear(file: &Gearbox, result: &GearboxResult, i: usize) -> Option<GearInSpace>
     let exact = [&result.pairs[mesh].pinion, &result.pairs[mesh].wheel][end];
     let own = &file.gears[i];
     Some(GearInSpace {
+        name: own.name.clone(),
         shaft: own.shaft,
         position: own.position,
         teeth: exact.teeth(),

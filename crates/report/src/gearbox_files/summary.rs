@@ -140,8 +140,17 @@ described::described! {
         element_length_mm: Option<f64>,
         /// pitch diameter
         pitch_diameter_mm: f64,
-        /// whether the internal geometry is estimated from bore, outer diameter and static rating
+        /// whether the internal geometry is estimated from bore, outer diameter and static rating or width
         is_estimated: bool,
+        /// C_0, basic static radial load rating of ISO 76, by the rolling elements
+        static_rating_kn: f64,
+        /// C, basic dynamic radial load rating of ISO 281, stated or estimated; missing without `dynamic_rating_kn` and `designation`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        dynamic_rating_kn: Option<f64>,
+        /// whether the dynamic rating is estimated
+        is_rating_estimated: bool,
+        /// S_0 of ISO 76 at the largest pressure of a rolling element; `null` without load
+        static_safety: Option<f64>,
         /// rolling elements of all rows
         elements: usize,
         /// smallest number of loaded rolling elements
@@ -160,7 +169,7 @@ described::described! {
         /// power that the bearing loses in an oil bath; missing without `viscosity_mm2_per_s`
         #[serde(skip_serializing_if = "Option::is_none")]
         loss_w: Option<f64>,
-        /// life at 90 % reliability; missing without `dynamic_rating_kn`, and without load
+        /// life at 90 % reliability; missing without `dynamic_rating_kn` or `designation`, and without load
         #[serde(skip_serializing_if = "Option::is_none")]
         life: Option<LifeSummary>,
     }
@@ -348,6 +357,10 @@ fn rolling(load: &RollingLoad) -> RollingSummary {
         element_length_mm,
         pitch_diameter_mm,
         is_estimated: load.is_estimated,
+        static_rating_kn: 1e-3 * load.ratings.0,
+        dynamic_rating_kn: load.ratings.1.map(|rating| 1e-3 * rating),
+        is_rating_estimated: load.is_rating_estimated,
+        static_safety: load.static_safety,
         elements: load.count,
         min_loaded_elements: load.loaded[0],
         max_loaded_elements: load.loaded[1],

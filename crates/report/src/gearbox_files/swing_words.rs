@@ -37,6 +37,12 @@ pub(super) fn holders(file: &Gearbox, shares: &[EnergyShare]) -> String {
     large.iter().map(named).collect::<Vec<_>>().join(", ")
 }
 
+/// The part with most of the strain energy of a mode; `None` where nothing is strained.
+pub(super) fn most_strained(file: &Gearbox, mode: &WhirlMode) -> Option<String> {
+    let most = mode.energy.strain.iter().max_by(|a, b| a.share.total_cmp(&b.share))?;
+    Some(part(file, most.component))
+}
+
 fn part(file: &Gearbox, component: Component) -> String {
     let or = |name: Option<&String>| name.map_or_else(|| "-".to_owned(), String::clone);
     match component {

@@ -7,9 +7,9 @@ use analysis::{
 use scene::gearbox::{Gearbox, GearboxVibration};
 use study::Campbell;
 
-use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
+use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks, most_strained};
 use crate::{
-    charts::{Curve, campbell_chart, line_chart},
+    charts::{Curve, campbell_chart, line_chart, stick_chart},
     page::{Cell, Grid, Part},
 };
 
@@ -20,7 +20,9 @@ const LISTED: usize = 8;
 
 /// Modes, charts, largest forces.
 pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &VibrationResult) -> Vec<Part> {
-    let charts = [campbell(&swings.campbell), meshes(file, swings), bearings(file, swings)];
+    let charts =
+        [campbell(&swings.campbell, &|m| mode_name(file, swings, m)), meshes(file, swings), bearings(file, swings)];
+    let charts = charts.into_iter().flatten().chain(spectra(file, swings));
     let rows: Vec<Vec<Cell>> = first_modes(swings)
         .iter()
         .enumerate()
@@ -34,8 +36,8 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
         })
         .collect();
     let words = format!(
-        "With the mean stiffness of every mesh at {:.1}/min of the input. Where the strain energy is, and what moves. The \
-         picture in space shows each as a shape.",
+        "Natural frequencies at {:.1} rpm input speed, with the mean stiffness of every mesh. Columns: shares of strain energy \
+         and of kinetic energy. The picture in space shows each mode as a shape.",
         swings.campbell.diagram.speeds.first().map_or(f64::NAN, |s| 60.0 * s)
     );
     let of_meshes = mesh_peaks(file, swings).into_iter().zip(&swings.mesh_stiffness).map(|(peak, stiffness)| {
@@ -55,7 +57,7 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
     let narrow = Grid::new(head[..3].iter().copied()).rows(rows.iter().take(LISTED).map(|row| row[..3].to_vec()));
     vec![
         Part::new("Natural frequencies").closing().words(words).grid(narrow),
-        Part::more().grid(Grid::new(head).rows(rows)).figures(charts.into_iter().flatten()),
+        Part::more().grid(Grid::new(head).rows(rows)).figures(charts),
         Part::new("Largest dynamic forces")
             .closing()
             .words(forces)
@@ -65,14 +67,36 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
 }
 
 /// Natural frequencies over speed with the lowest orders of every mesh.
-pub(super) fn campbell(GearboxCampbell { diagram, lines }: &GearboxCampbell) -> Option<String> {
+pub(super) fn campbell(
+    GearboxCampbell { diagram, lines }: &GearboxCampbell,
+    mode_name: &dyn Fn(usize) -> String,
+) -> Option<String> {
     let first = lines.iter().enumerate().filter(|(_, l)| l.name.ends_with("_order_1"));
     let rest = lines.iter().enumerate().filter(|(_, l)| !l.name.ends_with("_order_1") && l.name.contains("order"));
     let (numbers, names): (Vec<usize>, Vec<String>) =
         first.chain(rest).take(DRAWN).map(|(i, l)| (i, l.name.replace('_', " "))).unzip();
     let orders = numbers.iter().map(|i| diagram.orders[*i]).collect();
-    let modes: Vec<String> = (1..=diagram.frequencies.len()).map(|m| format!("natural mode {m}")).collect();
+    let modes: Vec<String> = (1..=diagram.frequencies.len()).map(mode_name).collect();
     campbell_chart(&Campbell { orders, ..diagram.clone() }, &names, &modes)
+}
+
+/// Name of a mode in the diagram, counted from 1: by the part that is strained most.
+fn mode_name(file: &Gearbox, swings: &VibrationResult, mode: usize) -> String {
+    let strained = first_modes(swings).get(mode - 1);
+    match strained.and_then(|own| most_strained(file, own)) {
+        Some(part) => format!("mode {mode}: {part}"),
+        None => String::new(),
+    }
+}
+
+/// Orders of the loaded transmission error that excite.
+fn spectra(file: &Gearbox, swings: &VibrationResult) -> Vec<String> {
+    let of = |(mesh, orders): (&scene::gearbox::GearboxMesh, &Vec<f64>)| {
+        let points = orders.iter().zip(1u32..).map(|(mm, order)| (f64::from(order), 1e3 * mm)).collect();
+        let title = format!("Orders of the static transmission error of mesh {}", mesh.name);
+        stick_chart(&title, "mesh order", "amplitude [um]", Curve { label: "amplitude".to_owned(), points })
+    };
+    file.meshes.iter().zip(&swings.transmission_error).filter_map(of).collect()
 }
 
 /// A root mean square over the speed of the input.

@@ -144,7 +144,7 @@ pub(crate) fn documented() -> Vec<(&'static str, Table)> {
         ("harris", tables::harris(&[])),
         ("influences", tables::influences(&[])),
         ("front", tables::front(&parameters, &[])),
-        ("numbers", numbers::table(&[], &[&[], &[]], 0, &[])),
+        ("numbers", numbers::table(&[])),
     ]
 }
 

@@ -3,10 +3,14 @@
 use std::collections::BTreeMap;
 
 use analysis::remark::{self, Remark};
-use answer::{Answer, Cost, Table};
+use answer::{Answer, Cost, Table, shown_units};
 use design::Stop;
 use plan::{NumberOptimum, goal_of, goal_unit};
-use scene::{Setting, optimum::NumberOptimisation, plan::PlanOutput};
+use scene::{
+    Machine, Setting,
+    optimum::{NumberLimit, NumberLoad, NumberOptimisation},
+    plan::PlanOutput,
+};
 use serde::Serialize;
 use serde_json::json;
 
@@ -14,7 +18,7 @@ use super::{HELD, page::parameter_part, tables};
 use crate::{
     ReportError, Written,
     charts::{Curve, line_chart},
-    page::{Cell, Grid, Line, Page, Part, again, cost_part, counted},
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, counted},
     write_result,
 };
 use store::folder::ResultDirectory;
@@ -78,11 +82,16 @@ impl NumberOptimumResult<'_> {
 
     /// The limits that the optimum passes; `None` where it holds them.
     pub fn passed_limits(&self) -> Option<Remark> {
-        let limited = self.plan.limits.iter().zip(&self.optimum.after[self.plan.goals.len()..]);
-        let passed = limited.filter(|(limit, value)| **value > (1.0 + HELD) * limit.most);
-        let passed: Vec<String> = passed
-            .map(|(limit, value)| format!("{} is {value:.4}, {} at the most", limit.output.name(), limit.most))
-            .collect();
+        let under = |(load, after): (&NumberLoad, &Vec<f64>)| {
+            let limited = self.plan.limits.iter().zip(&after[self.plan.goals.len()..]);
+            let passed = limited.filter(|(limit, value)| **value > (1.0 + HELD) * limit.most);
+            let at = if self.plan.loads.len() > 1 { format!(" at {} N m", load.torque_nm) } else { String::new() };
+            let told = |(limit, value): (&NumberLimit, &f64)| {
+                format!("{} is {value:.4}{at}, {} at the most", limit.output.name(), limit.most)
+            };
+            passed.map(told).collect::<Vec<_>>()
+        };
+        let passed: Vec<String> = self.plan.loads.iter().zip(&self.optimum.after).flat_map(under).collect();
         (!passed.is_empty()).then(|| remark::limit_passed(passed.join("; ")))
     }
 }
@@ -97,7 +106,11 @@ pub fn number_optimum_answer(of: &NumberOptimumResult<'_>, cost: Cost) -> Answer
     Answer {
         kind: "optimum",
         name: plan.name.clone(),
-        inputs: json!({ "scene": plan.scene_file(), "goals": names(of) }),
+        inputs: json!({
+            "scene": plan.scene_file(),
+            "goals": names(of),
+            "torques_nm": plan.loads.iter().map(|load| load.torque_nm).collect::<Vec<_>>(),
+        }),
         tables: vec![tables::steps(&plan.parameters, &optimum.found.steps, "goal"), numbers(of)],
         headline: json!(NumberHeadline {
             goal_start: start,
@@ -122,23 +135,49 @@ fn names(of: &NumberOptimumResult<'_>) -> Vec<String> {
 fn numbers(of: &NumberOptimumResult<'_>) -> Table {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let outputs = plan.outputs();
-    let limits: Vec<f64> = plan.limits.iter().map(|limit| limit.most).collect();
-    table(&outputs, &[&optimum.before, &optimum.after], plan.goals.len(), &limits)
+    let goals = plan.goals.len();
+    let rows = plan.loads.iter().enumerate().flat_map(|(i, load)| {
+        let row = |(k, output): (usize, &PlanOutput)| NumberRow {
+            torque_nm: load.torque_nm,
+            number: output.name(),
+            values: [optimum.before[i][k], optimum.after[i][k]],
+            limit: k.checked_sub(goals).map(|k| plan.limits[k].most),
+        };
+        outputs.iter().enumerate().map(row).collect::<Vec<_>>()
+    });
+    table(&rows.collect::<Vec<_>>())
 }
 
-/// Numbers, `goals` goals first, with values before and after, and the limits of the others.
-pub(super) fn table(outputs: &[PlanOutput], values: &[&[f64]; 2], goals: usize, limits: &[f64]) -> Table {
-    let limits = std::iter::repeat_n(f64::NAN, goals).chain(limits.iter().copied());
+/// A goal, or a number with its limit, under a load.
+pub(super) struct NumberRow {
+    torque_nm: f64,
+    number: String,
+    /// Before and after.
+    values: [f64; 2],
+    limit: Option<f64>,
+}
+
+/// Numbers with values before and after, goals first, load by load.
+pub(super) fn table(rows: &[NumberRow]) -> Table {
     Table::new("numbers")
-        .texts("number", "key of the headline", outputs.iter().map(PlanOutput::name))
+        .numbers(
+            "torque_nm",
+            "torque on the driven gear, of a gearbox the first one",
+            rows.iter().map(|row| row.torque_nm),
+        )
+        .texts("number", "key of the headline", rows.iter().map(|row| row.number.clone()))
         .texts(
             "role",
             "role of the number: `goal` or `limit`",
-            (0..outputs.len()).map(|k| if k < goals { "goal" } else { "limit" }),
+            rows.iter().map(|row| if row.limit.is_some() { "limit" } else { "goal" }),
         )
-        .numbers("before", "value at the start, in the unit of the key", values[0].iter().copied())
-        .numbers("after", "value of the optimum, in the unit of the key", values[1].iter().copied())
-        .numbers("limit", "largest allowed value; `NaN` of a goal", limits)
+        .numbers("before", "value at the start, in the unit of the key", rows.iter().map(|row| row.values[0]))
+        .numbers("after", "value of the optimum, in the unit of the key", rows.iter().map(|row| row.values[1]))
+        .numbers(
+            "limit",
+            "largest allowed value; `NaN` of a goal",
+            rows.iter().map(|row| row.limit.unwrap_or(f64::NAN)),
+        )
 }
 
 /// Writes the answer; what comes back is the closing table.
@@ -155,6 +194,44 @@ pub fn write_number_optimum(
     write_result(answer, &page, false, results)
 }
 
+/// Modifications of the optimum in words, gear by gear: what the workshop is told. Nothing where none is searched.
+fn grind(of: &NumberOptimumResult<'_>) -> Part {
+    let NumberOptimumResult { plan, optimum, .. } = *of;
+    let machine = plan.machine(&optimum.values).ok();
+    let rows = plan.parameters.iter().zip(&optimum.values).filter_map(|(own, value)| {
+        let (place, name) = own.name().split_once(".modification.")?;
+        let unit = answer::unit_of(name);
+        let words = name.rsplit_once('_').filter(|_| !unit.is_empty()).map_or(name, |(words, _)| words);
+        Some(vec![
+            Cell::text(gear_name(machine.as_ref(), place).unwrap_or_else(|| place.to_owned())),
+            Cell::text(words.replace(['_', '.'], " ")),
+            Cell::number(own.start, 3),
+            Cell::number(*value, 3),
+            Cell::text(shown_units(&unit)),
+        ])
+    });
+    let part = Part::new("Grind this").closing();
+    let part = part.grid(Grid::new(["gear", "modification", "before", "grind", ""]).rows(rows));
+    if part.contents.is_empty() {
+        return part;
+    }
+    part.note("A lead slope above 0 removes more at +z than at -z. Rounded to what a machine can be set to.")
+}
+
+/// Name of the gear that a key such as `mesh.0.scene.pinion` stands for; `None` of a pair, whose gears have no names.
+fn gear_name(machine: Option<&Machine>, place: &str) -> Option<String> {
+    let Machine::Gearbox(file) = machine? else { return None };
+    let (mesh, end) = place.strip_prefix("mesh.")?.split_once(".scene.")?;
+    let mesh = file.meshes.get(mesh.parse::<usize>().ok()?)?;
+    let gear = mesh.gears[usize::from(end.starts_with("wheel"))];
+    Some(file.gears.get(gear)?.name.clone())
+}
+
+/// A number with four decimals, one of 100 and more with one.
+fn shown(value: f64) -> Cell {
+    Cell::number(value, if value.abs() < 100.0 { 4 } else { 1 })
+}
+
 fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
@@ -165,16 +242,29 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
         Line::number("goal at the start", start, 4, &unit),
         Line::number(format!("optimum, {}", counted(optimum.found.steps.len(), "evaluation")), best, 4, &unit),
     ]));
-    let rows = plan.outputs().into_iter().enumerate().map(|(k, output)| {
-        let limit = k.checked_sub(plan.goals.len()).map(|k| plan.limits[k].most);
-        vec![
-            Cell::text(output.name()),
-            Cell::number(optimum.before[k], 4),
-            Cell::number(optimum.after[k], 4),
-            limit.map_or_else(|| Cell::text(""), |most| Cell::number(most, 4)),
-        ]
+    page.push(grind(of));
+    let several = plan.loads.len() > 1;
+    let outputs = plan.outputs();
+    let rows = plan.loads.iter().enumerate().flat_map(|(i, load)| {
+        let row = |(k, output): (usize, &PlanOutput)| {
+            let limit = k.checked_sub(plan.goals.len()).map(|k| plan.limits[k].most);
+            let mut row = vec![
+                Cell::text(output.name()),
+                shown(optimum.before[i][k]),
+                shown(optimum.after[i][k]),
+                limit.map_or_else(|| Cell::count(""), shown),
+            ];
+            if several {
+                row.insert(1, Cell::number(load.torque_nm, 1));
+            }
+            row
+        };
+        outputs.iter().enumerate().map(row).collect::<Vec<_>>()
     });
-    let head = ["number", "start", "optimum", "limit"];
+    let mut head = vec!["number", "start", "optimum", "limit"];
+    if several {
+        head.insert(1, "torque N m");
+    }
     page.push(Part::new("Numbers").closing().grid(Grid::new(head).rows(rows)));
     let found = plan.parameters.iter().zip(&optimum.found.values).zip(&optimum.values);
     page.push(parameter_part(found.map(|((parameter, found), value)| (parameter, *found, *value))));
@@ -183,7 +273,7 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let curve = [Curve { label: "goal".to_owned(), points: goals }];
     page.push(Part::more().figures(line_chart("The search", "evaluation", "goal", &curve, false)));
     let run = format!("ale-gear run {} {} --out DIR", plan.scene_file().display(), of.settings().join(" "));
-    page.push(Part::new("The optimum by itself").note(run));
+    page.push(Part::new("The optimum by itself").with(Content::Plain(run)));
     page.push(cost_part(&answer.cost));
     page.push(again(of.again));
     page

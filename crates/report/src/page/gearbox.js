@@ -158,6 +158,17 @@
     };
     const space = stageOf(stage, state, look, { update });
     [...shafts.map(s => s.mesh), ...gears.map(g => g.teeth), ...bearings.flatMap(b => [b.ring, b.arrow])].forEach(part => space.scene.add(part));
+    const along = (shaft, z) => [shaft.origin[0], shaft.origin[1], shaft.origin[2] + z];
+    data.shafts.forEach(shaft => space.tag(shaft.name, along(shaft, shaft.sections.at(-1)[1] + 0.03 * size), "shaft"));
+    gears.forEach(gear => {
+      const [x, y, z] = along(gear.shaft, gear.data.position);
+      space.tag(gear.data.name, [x, y + gear.reach + 0.015 * size, z], "gear");
+    });
+    data.bearings.forEach(bearing => {
+      const [x, y, z] = along(data.shafts[bearing.shaft], bearing.position);
+      space.tag(bearing.name, [x, y - 2.1 * bearing.radius - 0.01 * size, z], "bearing");
+    });
+    $("names").addEventListener("change", () => { stage.classList.toggle("nameless", !$("names").checked); });
     data.modes.forEach((mode, i) => $("shape").append(new Option(mode.name, i + 1)));
     $("shape").closest("label").hidden = data.modes.length === 0;
     $("shape").addEventListener("change", () => { state.shape = Number($("shape").value); update(); });

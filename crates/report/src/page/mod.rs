@@ -10,4 +10,4 @@ mod template;
 pub use closing::closing_text;
 pub use part::{Cell, Content, Grid, Line, Page, Part, again, cost_part, counted};
 pub use rendered::{Rendered, report_again, report_from};
-pub use template::{render, render_own};
+pub use template::{escaped, render, render_own};

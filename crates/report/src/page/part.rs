@@ -1,6 +1,6 @@
 //! What a page and a closing table are made of: parts with lines, grids and figures, whatever was asked.
 
-use answer::{Answer, Cost};
+use answer::{Answer, Cost, shown_units};
 use serde::{Deserialize, Serialize};
 
 use crate::tables::fixed;
@@ -73,7 +73,9 @@ pub struct Line {
 impl Line {
     /// A value in words.
     pub fn text(label: impl Into<String>, value: impl ToString, unit: impl Into<String>) -> Self {
-        Self { label: label.into(), value: value.to_string(), unit: unit.into() }
+        let [label, value, unit] =
+            [label.into(), value.to_string(), unit.into()].map(|text: String| shown_units(&text));
+        Self { label, value, unit }
     }
 
     /// A number with so many decimals ([`fixed`]), `-` when there is none.
@@ -159,7 +161,8 @@ pub struct Grid {
 impl Grid {
     /// Without rows.
     pub fn new<S: Into<String>>(head: impl IntoIterator<Item = S>) -> Self {
-        Self { head: head.into_iter().map(Into::into).collect(), ..Self::default() }
+        let words = head.into_iter().map(Into::into);
+        Self { head: words.map(|word: String| shown_units(&word)).collect(), ..Self::default() }
     }
 
     /// With rows that a click on a heading sorts.
@@ -196,13 +199,13 @@ impl Part {
     /// With a paragraph below its heading.
     #[must_use]
     pub fn words(self, words: impl Into<String>) -> Self {
-        Self { words: words.into(), ..self }
+        Self { words: shown_units(&words.into()), ..self }
     }
 
     /// With small letters at its end.
     #[must_use]
     pub fn note(self, note: impl Into<String>) -> Self {
-        Self { note: note.into(), ..self }
+        Self { note: shown_units(&note.into()), ..self }
     }
 
     /// With one more content; empty ones are left out.
@@ -254,10 +257,10 @@ impl Page {
     pub fn of(answer: &Answer, subtitle: String) -> Self {
         Self {
             name: answer.name.clone(),
-            subtitle,
+            subtitle: shown_units(&subtitle),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             failed: answer.checks.missed().map(answer::Check::words).collect(),
-            remarks: answer.remarks.iter().map(ToString::to_string).collect(),
+            remarks: answer.remarks.iter().map(|said| shown_units(&said.to_string())).collect(),
             ..Self::default()
         }
     }

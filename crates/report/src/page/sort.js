@@ -10,7 +10,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
         const text = row.cells[column].textContent;
         return text === "" || text === "-" ? Infinity : isNaN(text) ? text : Number(text);
       };
-      const rows = [...body.rows].slice(1).map(row => [value(row), row]);
+      const rows = [...body.rows].map(row => [value(row), row]);
       rows.sort(([x], [y]) => (x < y ? -sign : x > y ? sign : 0));
       body.append(...rows.map(([, row]) => row));
     });

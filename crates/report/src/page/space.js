@@ -52,7 +52,22 @@
     const lamp = new THREE.DirectionalLight(0xffffff, 1.1);
     lamp.position.set(0.6, 0.8, 1);
     camera.add(lamp);
-    const draw = () => { renderer.render(scene, camera); state.shown += 1; };
+    // Names beside what they name: text of the page over the picture, each at a place in space.
+    const tags = [];
+    const tag = (text, place, kind) => {
+      const words = Object.assign(document.createElement("span"), { className: `tag ${kind}`, textContent: text });
+      stage.append(words);
+      tags.push([words, place]);
+    };
+    const write = () => {
+      const [wide, high] = [stage.clientWidth, stage.clientHeight];
+      for (const [words, place] of tags) {
+        const at = new THREE.Vector3(...place).project(camera);
+        words.style.transform = `translate(${(0.5 * (at.x + 1) * wide).toFixed(1)}px, ${(0.5 * (1 - at.y) * high).toFixed(1)}px) translate(-50%, -50%)`;
+        words.hidden = Math.abs(at.z) > 1 || Math.abs(at.x) > 1 || Math.abs(at.y) > 1;
+      }
+    };
+    const draw = () => { renderer.render(scene, camera); write(); state.shown += 1; };
     const view = name => {
       state.look = name;
       before(name);
@@ -105,7 +120,7 @@
       state.look = name;
       resize();
     };
-    return { scene, draw, view, open };
+    return { scene, draw, view, open, tag };
   };
 
   // A browser without WebGL shows all the rest.

@@ -37,6 +37,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_filter("markdown", markdown);
+    environment.add_filter("code", code);
     environment.add_function("number", number);
     environment.add_function("science", science);
     let parts = [
@@ -75,6 +76,23 @@ fn with_scripts(mut page: String) -> String {
         page.insert_str(end, &scripts);
     }
     page
+}
+
+/// A text as a page has it: nothing in it is a tag.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// A text whose parts between backticks are code.
+fn code(text: &str) -> Value {
+    let mut html = String::new();
+    for (i, part) in escaped(text).split('`').enumerate() {
+        let is_code = i % 2 == 1;
+        html += if is_code { "<code>" } else { "" };
+        html += part;
+        html += if is_code { "</code>" } else { "" };
+    }
+    Value::from_safe_string(html)
 }
 
 /// A number with so many decimals, `-` when there is none.

@@ -103,7 +103,7 @@
     }
   }
 
-  const QUANTITIES = { pressure: "pressure [MPa]", displacement: "displacement [um]", stress: "first principal stress [MPa]" };
+  const QUANTITIES = { pressure: "pressure [MPa]", displacement: "displacement [µm]", stress: "first principal stress [MPa]" };
 
   const start = (first, stage) => {
     const state = { frame: 0, quantity: "pressure", shown: 0, look: null };
@@ -130,14 +130,17 @@
       $("view-note").textContent = data.note;
       return others;
     };
+    // Where the wheel's centre is that is drawn aside by so much; a ring's is on the other side of the pinion's.
+    const beside = apart => centre < 0 ? centre : centre + 0.006 * apart * centre;
     const update = () => {
       const frame = data.frames[state.frame], solid = state.quantity !== "pressure";
       const times = solid ? most * Number($("scale").value) / 100 : 0;
       gears.forEach(gear => gear.show(frame, state.frame, state.quantity, largest[state.quantity], times));
       gears[0].group.position.x = 0;
       const apart = Number($("apart").value);
-      gears[1].group.position.x = centre + 0.006 * apart * centre;
-      gears[1].group.position.z = data.gears[1].centre[1];
+      gears[1].group.position.x = beside(apart);
+      // A ring goes along its axis, where nothing is in its way.
+      gears[1].group.position.z = data.gears[1].centre[1] - (centre < 0 ? 0.03 * apart * (gears[0].half + gears[1].half) : 0);
       // In mesh the bands lie between flanks, where nobody sees them: they shine through.
       gears.forEach(gear => { gear.bands.material.depthTest = apart > 0; });
       $("phase").textContent = `phase ${frame.phase.toFixed(3)}`;
@@ -154,7 +157,7 @@
     };
     // Middle, direction, and what is to be seen across and up.
     const both = () => {
-      const [left, right] = [-gears[0].reach, centre + 0.006 * Number($("apart").value) * centre + gears[1].reach];
+      const at = beside(Number($("apart").value)), left = Math.min(-gears[0].reach, at - gears[1].reach), right = Math.max(gears[0].reach, at + gears[1].reach);
       return [[0.5 * (left + right), 0, 0], 1.06 * (right - left), 2.12 * Math.max(...gears.map(g => g.reach))];
     };
     // The pinion's flank that is loaded, from where it faces.
@@ -187,7 +190,8 @@
     }
     window.report.player($("play"), () => { $("frame").value = state.frame = (state.frame + 1) % data.frames.length; update(); });
     take(first);
-    space.open("whole");
+    // The picture opens at the mesh, where something is to be seen there.
+    space.open(data.frames.some(frame => frame.bands.length) ? "mesh" : "whole");
     // Other numbers, or other gears, in the same picture.
     const show = next => { if (take(next)) space.view("whole"); else update(); };
     window.report.view = { state, look: space.view, show };

@@ -66,7 +66,7 @@ pub fn write_static_result(
         .chain(headline.rating.iter().flat_map(rating::safeties))
         .collect(),
         over: "Over the mesh cycle".into(),
-        charts: charts(scene, history, facts),
+        charts: charts(scene, (history, &headline), facts),
         after,
         headline: lines(&headline, facts),
         solved: solved(&headline),
@@ -191,8 +191,9 @@ fn solved(h: &StaticHeadline) -> Vec<Line> {
 
 const ANGLE: &str = "pinion angle [deg]";
 
-/// What is drawn of positions at rest over the pinion angle: static transmission error and load sharing first.
-pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
+/// What is drawn of positions at rest: static transmission error and its spectrum, load sharing, line load over the face
+/// first. `harmonics`: amplitudes of the mesh harmonics, um.
+pub fn static_charts(scene: &Scene, history: &StaticHistory, harmonics: &[f64]) -> Vec<LineChart> {
     let curves = StaticCurves::new(scene, history);
     let named = |label: &str, points| Curve { label: label.to_owned(), points };
     let of = |label, column| named(label, curves.of(column));
@@ -207,9 +208,17 @@ pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
     // A pair's bending on either gear: the tension below the loaded flank of its teeth.
     let bending = |gear| by_pair(TOOTH_TENSION, gear);
     let chart = |title, y, curves: &[_], from_zero| LineChart::new(title, [ANGLE, y], curves, from_zero);
+    let spectrum = harmonics.iter().zip(1u32..).map(|(amplitude, order)| (f64::from(order), *amplitude));
+    let spectrum = named("amplitude", spectrum.collect());
+    let slices = history.positions.iter().flat_map(|p| &p.pairs).flat_map(|pair| &pair.slices);
+    let mut over_face = ltca::load_envelope(slices);
+    over_face.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let face = ["height over the pinion's mid-face [mm]", "largest line load [N/mm]"];
     [
         chart("Static transmission error", "STE [um]", &[of("STE", STE)], false),
+        LineChart::spectrum("Spectrum of the static transmission error", ["mesh order", "amplitude [um]"], spectrum),
         chart("Load sharing", "normal force [N]", &by_pair(PAIR_FORCE, 0), true),
+        LineChart::new("Line load over the face", face, &[named("over the mesh cycle", over_face)], true),
         chart("Total contact-line length", "length [mm]", &length, false),
         chart("Mesh stiffness", "stiffness [N/um]", &stiffness, false),
         chart("Mesh force on the wheel", "force [N]", &forces, true),
@@ -221,8 +230,8 @@ pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
     .collect()
 }
 
-fn charts(scene: &Scene, history: &StaticHistory, facts: &RunInfo) -> Vec<String> {
-    let all = static_charts(scene, history);
+fn charts(scene: &Scene, (history, h): (&StaticHistory, &StaticHeadline), facts: &RunInfo) -> Vec<String> {
+    let all = static_charts(scene, history, &h.ste_harmonics_um);
     all.iter()
         .enumerate()
         .filter_map(|(k, chart)| if k == 0 { in_its_bounds(chart, facts) } else { chart.figure() })

@@ -7,17 +7,17 @@ use analysis::{
     motion::{ElasticHeadline, InertiaHeadline},
     results::PressurePlace,
 };
-use answer::{Answer, Cost, Remark, Table, keyed};
+use answer::{Answer, Cost, Remark, Table, keyed, shown_units};
 use minijinja::context;
 use scene::{Driver, Scene};
 use serde::Serialize;
 
 use crate::{
     ReportError,
-    charts::embedded,
+    charts::{TransverseSection, embedded},
     how_exact::how_exact,
-    page::{Content, Line, Page, Part, again, cost_part, render},
-    tables::{fixed, geometry_table, model_name, torque},
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
+    tables::{GeometryBlock, fixed, geometry_blocks, model_name, torque},
 };
 use export::view::View;
 
@@ -79,12 +79,14 @@ pub(super) fn pair_page(
     shown: Shown<'_>,
 ) -> Result<Page, ReportError> {
     let mut page = Page::of(answer, format!("model {}{}", model_name(scene), shown.subtitle));
-    page.glance = glance(scene, facts).into_iter().chain(shown.key).collect();
+    page.glance =
+        glance(scene, facts).into_iter().chain(shown.key).map(|item| item.map(|text| shown_units(&text))).collect();
     let view = match shown.view {
         Some(view) => embedded("view", view),
         None => embedded("view", &View::of_geometry(scene, &scene.gear_pair()?)),
     };
     page.push(Part::more().with(Content::Html(render("view.html", context! { view => view })?)));
+    page.push(transverse_section(scene)?);
     page.push(Part::new(shown.over).figures(shown.charts));
     shown.after.into_iter().for_each(|part| page.push(part));
     let first = Line::number("contact ratio eps_gamma", facts.geometry.eps_gamma, 4, "");
@@ -102,14 +104,57 @@ pub(super) fn pair_page(
          what was compared with published results.",
     ));
     let rpm = scene.pinion_speed() * 30.0 / PI;
-    let sheet = geometry_table(&scene.name, facts, &torque(scene), rpm);
-    page.push(Part::new("Geometry").lines(geometry(facts)).with(Content::Plain(sheet.unwrap_or_default())));
+    let sheet = geometry_blocks(facts, &torque(scene), rpm);
+    let few = if sheet.is_empty() { geometry(facts) } else { Vec::new() };
+    page.push(sheet.into_iter().map(grid).fold(Part::new("Geometry").lines(few), Part::grid));
     page.push(Part::new("Size").closing().lines(size(facts)));
     page.push(cost_part(&answer.cost));
     page.push(again(&shown.again.unwrap_or_else(|| command(scene))));
     let words = "The scene with every default written out; paths in it are relative to the scene file.";
     page.push(Part::more().words(words).with(Content::Plain(scene.to_toml())));
     Ok(page)
+}
+
+/// A table of the geometry sheet.
+fn grid(block: GeometryBlock) -> Grid {
+    let numbers = block.rows.iter().map(|(_, numbers, _)| numbers.len()).max().unwrap_or(0);
+    let has_units = block.rows.iter().any(|(_, _, unit)| !unit.is_empty());
+    let mut head = block.head;
+    head.resize(1 + numbers + usize::from(has_units), String::new());
+    let rows = block.rows.into_iter().map(|(label, own, unit)| {
+        let empty = std::iter::repeat_n(String::new(), numbers - own.len());
+        let mut row = vec![Cell::text(label)];
+        row.extend(own.into_iter().chain(empty).map(Cell::count));
+        row.extend(has_units.then(|| Cell::text(unit)));
+        row
+    });
+    Grid::new(head).rows(rows)
+}
+
+/// The mesh in transverse section with senses of rotation and torques.
+fn transverse_section(scene: &Scene) -> Result<Part, ReportError> {
+    let pair = scene.gear_pair()?;
+    let operation = &scene.operation;
+    let ratio = f64::from(scene.wheel.teeth).abs() / f64::from(scene.pinion.teeth);
+    let pinion_rpm = scene.pinion_speed() * 30.0 / PI;
+    let torques_nm = match operation.driver {
+        Driver::Pinion => [operation.torque_nm / ratio, operation.torque_nm],
+        Driver::Wheel => [operation.torque_nm, operation.torque_nm * ratio],
+    };
+    let section = TransverseSection {
+        pair: &pair,
+        side: scene.side(),
+        driver: operation.driver,
+        sense: operation.rotation,
+        speeds_rpm: [pinion_rpm, pinion_rpm / ratio],
+        torques_nm,
+    };
+    Ok(Part::more().with(Content::Html(section.figure())).note(
+        "The middle of the common face, seen against +z, tooth 0 in the middle of its path. Blue arrows: rotation; orange \
+         arrows: torques on the shafts. Orange line: path of contact from A to E on the line of action, C at the pitch \
+         point, one pair of teeth touches from B to D. Base circles are solid, tip circles dotted, pitch circles \
+         dash-dotted.",
+    ))
 }
 
 /// The command that runs a scene.

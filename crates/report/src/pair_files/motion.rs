@@ -229,7 +229,7 @@ fn over_speeds(h: &SweepHeadline) -> Vec<Line> {
             SweepWay::Up => "upwards",
             SweepWay::Down => "downwards",
         };
-        let at = format!("um at {:.1}/min, {:.1} Hz", row.speed_rpm, row.mesh_frequency_hz);
+        let at = format!("um at {:.1} rpm, {:.1} Hz", row.speed_rpm, row.mesh_frequency_hz);
         all.push(Line::number(format!("largest peak-to-peak DTE, {way}"), row.peak_to_peak_dte_um, 4, at));
         all.push(Line::number("  dynamic factor there", row.dynamic_factor, 4, ""));
     }

@@ -1,4 +1,4 @@
-//! The geometry sheet as a table.
+//! The geometry sheet as tables: of a page, and of the terminal.
 
 use std::fmt::Write;
 
@@ -12,14 +12,64 @@ use serde::Serialize;
 /// The table that `ale-gear geometry` prints: the sheet, then what a nominal load does; `speed_rpm` of the pinion,
 /// where speeds are to be told. `None` without a sheet.
 pub fn geometry_table(name: &str, facts: &RunInfo, torque: &str, speed_rpm: f64) -> Option<String> {
-    let mut t = sheet_table(name, facts.geometry_sheet.as_ref()?, speed_rpm);
-    if let Some(nominal) = &facts.nominal_pressure {
-        pressures(&mut t, nominal, torque);
+    let blocks = blocks(facts, torque, speed_rpm)?;
+    Some(blocks.iter().fold(format!("{name}\n"), |t, block| t + "\n" + &block.text()))
+}
+
+/// The tables of the sheet and of a nominal load; none without a sheet.
+pub(crate) fn geometry_blocks(facts: &RunInfo, torque: &str, speed_rpm: f64) -> Vec<GeometryBlock> {
+    blocks(facts, torque, speed_rpm).unwrap_or_default()
+}
+
+fn blocks(facts: &RunInfo, torque: &str, speed_rpm: f64) -> Option<Vec<GeometryBlock>> {
+    let mut blocks = sheet_blocks(facts.geometry_sheet.as_ref()?, speed_rpm);
+    blocks.extend(facts.nominal_pressure.as_ref().map(|nominal| pressures(nominal, torque)));
+    blocks.extend(facts.iso_root_stress.as_ref().map(|iso| roots([&iso.pinion, &iso.wheel])));
+    Some(blocks)
+}
+
+/// Width of the labels on the terminal, of a number of a gear, and of both together.
+const LABEL: usize = 44;
+const NUMBER: usize = 14;
+
+/// A table of the sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct GeometryBlock {
+    /// Heading of the labels, then of the numbers; empty where they need none.
+    pub head: Vec<String>,
+    /// Widths of label and numbers on the terminal.
+    widths: Vec<usize>,
+    /// Label, numbers, unit.
+    pub rows: Vec<(String, Vec<String>, &'static str)>,
+}
+
+impl GeometryBlock {
+    /// Of both gears, or of numbers that are of neither.
+    fn new(head: &[&str]) -> Self {
+        let head = head.iter().map(|word| (*word).to_owned()).collect();
+        Self { head, widths: vec![LABEL, NUMBER, NUMBER], rows: Vec::new() }
     }
-    if let Some(iso) = &facts.iso_root_stress {
-        roots(&mut t, [&iso.pinion, &iso.wheel]);
+
+    fn row(&mut self, what: impl Into<String>, values: &[Option<f64>], digits: usize, unit: &'static str) {
+        let number = |v: &Option<f64>| v.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"));
+        self.rows.push((what.into(), values.iter().map(number).collect(), unit));
     }
-    Some(t)
+
+    /// For the terminal.
+    fn text(&self) -> String {
+        let line = |label: &str, numbers: &[String], unit: &str| {
+            let label = format!("  {label:<width$}", width = self.widths[0]);
+            let all = self.widths[1..].iter().sum::<usize>();
+            let numbers = numbers.iter().zip(&self.widths[1..]).fold(String::new(), |mut t, (number, width)| {
+                // Writing to a String cannot fail.
+                let _ = write!(t, "{number:>width$}");
+                t
+            });
+            format!("{label}{numbers:<all$}  {unit}").trim_end().to_owned() + "\n"
+        };
+        let head = self.head.split_first().map(|(label, numbers)| line(label, numbers, "")).unwrap_or_default();
+        self.rows.iter().fold(head, |t, (label, numbers, unit)| t + &line(label, numbers, unit))
+    }
 }
 
 /// Geometry as JSON, with the names of `summary.json`: the sheet, and beside it what the nominal load does.
@@ -37,12 +87,9 @@ pub fn geometry_json(facts: &RunInfo) -> String {
 }
 
 /// Hertz pressure at the points of the path of contact, and the factors of ISO 6336-2.
-fn pressures(t: &mut String, nominal: &NominalPressure, torque: &str) {
-    let _ = writeln!(t, "\n  under {torque}, without load factors");
-    let mut row = |what: &str, value: f64, digits: usize, unit: &str| {
-        // Writing to a String cannot fail.
-        let _ = writeln!(t, "  {what:<44}{value:>14.digits$}                {unit}");
-    };
+fn pressures(nominal: &NominalPressure, torque: &str) -> GeometryBlock {
+    let mut block = GeometryBlock::new(&[&format!("under {torque}, without load factors")]);
+    let mut row = |what: &str, value: f64, digits, unit| block.row(what, &[Some(value)], digits, unit);
     row("normal force", nominal.normal_force_n, 1, "N");
     for p in &nominal.hertz {
         let what = format!("Hertz pressure at {}, on {:.2} mm of contact line", p.name, p.line_length_mm);
@@ -57,29 +104,27 @@ fn pressures(t: &mut String, nominal: &NominalPressure, torque: &str) {
         row("  single contact factor Z_B", pinion, 4, "");
         row("  single contact factor Z_D", wheel, 4, "");
     }
+    block
 }
 
 /// Nominal root stress of ISO 6336-3 with its factors.
-fn roots(t: &mut String, gears: [&IsoGearRoot; 2]) {
-    let _ = writeln!(t, "\n  {:<44}{:>14}{:>14}", "ISO 6336-3, nominal", "pinion", "wheel");
-    let mut row = |what: &str, of: fn(&IsoGearRoot) -> f64, digits: usize, unit: &str| {
-        let [pinion, wheel] = gears.map(of);
-        let _ = writeln!(t, "  {what:<44}{pinion:>14.digits$}{wheel:>14.digits$}  {unit}");
+fn roots(gears: [&IsoGearRoot; 2]) -> GeometryBlock {
+    let mut block = GeometryBlock::new(&["ISO 6336-3, nominal", "pinion", "wheel"]);
+    let mut row = |what: &str, of: fn(&IsoGearRoot) -> f64, digits, unit| {
+        block.row(what, &gears.map(|gear| Some(of(gear))), digits, unit);
     };
     row("root stress sigma_F0", |g| g.nominal_root_stress_mpa, 1, "MPa");
     row("  form factor Y_F", |g| g.form_factor, 4, "");
     row("  stress correction factor Y_S", |g| g.stress_correction_factor, 4, "");
     row("  helix angle factor Y_beta", |g| g.helix_factor, 4, "");
     row("  rim thickness factor Y_B", |g| g.rim_thickness_factor, 4, "");
+    block
 }
 
 /// An internal pair: magnitudes as on a drawing, room about the tips, tool.
-fn ring_rows(t: &mut String, ring: &RingSheet) {
-    let _ = writeln!(t, "\n  internal gear, magnitudes");
-    let mut row = |what: &str, value: Option<f64>, unit: &str| {
-        let number = value.map_or_else(|| format!("{:>14}", "-"), |v| format!("{v:>14.4}"));
-        let _ = writeln!(t, "  {what:<44}{number:<28}  {unit}");
-    };
+fn ring_block(ring: &RingSheet) -> GeometryBlock {
+    let mut block = GeometryBlock::new(&["internal gear, magnitudes"]);
+    let mut row = |what: &str, value: Option<f64>, unit| block.row(what, &[value], 4, unit);
     row("centre distance", Some(ring.centre_distance_magnitude_mm), "mm");
     row("reference diameter", Some(ring.reference_diameter_magnitude_mm), "mm");
     row("base diameter", Some(ring.base_diameter_magnitude_mm), "mm");
@@ -97,14 +142,13 @@ fn ring_rows(t: &mut String, ring: &RingSheet) {
     row("  centre distance at full depth", Some(ring.shaper_centre_distance_mm), "mm");
     row("  working pressure angle at full depth", Some(ring.shaper_working_pressure_angle_deg), "deg");
     row("  room for radial feed", Some(ring.shaper_trimming_margin_deg), "deg");
+    block
 }
 
-fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
-    let mut t = format!("{name}\n\n");
-    let mut row = |what: &str, values: &[f64], digits: usize, unit: &str| {
-        let numbers: String = values.iter().map(|v| format!("{v:>14.digits$}")).collect();
-        // Writing to a String cannot fail.
-        let _ = writeln!(t, "  {what:<44}{numbers:<28}  {unit}");
+fn sheet_blocks(sheet: &GeometrySheet, speed_rpm: f64) -> Vec<GeometryBlock> {
+    let mut of_pair = GeometryBlock::new(&[]);
+    let mut row = |what: &str, values: &[f64], digits, unit| {
+        of_pair.row(what, &values.iter().map(|value| Some(*value)).collect::<Vec<_>>(), digits, unit);
     };
     row("normal module", &[sheet.normal_module_mm], 4, "mm");
     row("normal pressure angle", &[sheet.normal_pressure_angle_deg], 4, "deg");
@@ -130,10 +174,9 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     row("backlash, radial (linear, ISO 21771)", &[sheet.radial_backlash_mm], 4, "mm");
     row("tooth loss factor H_V, even line load", &[sheet.tooth_loss_factor], 4, "");
     let both = [&sheet.pinion, &sheet.wheel];
-    let _ = writeln!(t, "\n  {:<44}{:>14}{:>14}", "", "pinion", "wheel");
-    let mut pair = |what: &str, of: &dyn Fn(&GearSheet) -> Option<f64>, digits: usize, unit: &str| {
-        let cell = |gear: &GearSheet| of(gear).map_or_else(|| format!("{:>14}", "-"), |v| format!("{v:>14.digits$}"));
-        let _ = writeln!(t, "  {what:<44}{}{}  {unit}", cell(both[0]), cell(both[1]));
+    let mut of_gears = GeometryBlock::new(&["", "pinion", "wheel"]);
+    let mut pair = |what: &str, of: &dyn Fn(&GearSheet) -> Option<f64>, digits, unit| {
+        of_gears.row(what, &both.map(of), digits, unit);
     };
     pair("teeth", &|g| Some(g.teeth as f64), 0, "");
     pair("face width b", &|g| Some(g.face_width_mm), 4, "mm");
@@ -162,45 +205,33 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     pair("ball diameter D_M", &|g| g.balls.map(|b| b.ball_diameter_mm), 2, "mm");
     pair("dimension over balls M_dK", &|g| g.balls.map(|b| b.dimension_mm), 4, "mm");
     pair("  without allowance", &|g| g.balls.map(|b| b.nominal_dimension_mm), 4, "mm");
-    if let Some(ring) = &sheet.ring {
-        ring_rows(&mut t, ring);
-    }
-    let _ = writeln!(
-        t,
-        "\n  {:<6}{:>10}{:>12}{:>12}{:>14}{:>14}{:>14}{:>14}",
-        "point", "xi [mm]", "rho_1 [mm]", "rho_2 [mm]", "zeta pinion", "zeta wheel", "d_1 [mm]", "d_2 [mm]"
-    );
+    let mut blocks = vec![of_pair, of_gears];
+    blocks.extend(sheet.ring.as_ref().map(ring_block));
+    let head = ["point", "xi [mm]", "rho_1 [mm]", "rho_2 [mm]", "zeta pinion", "zeta wheel", "d_1 [mm]", "d_2 [mm]"];
+    let mut points = GeometryBlock { widths: vec![6, 10, 12, 12, 14, 14, 14, 14], ..GeometryBlock::new(&head) };
     for p in &sheet.points {
-        let _ = writeln!(
-            t,
-            "  {:<6}{:>10.4}{:>12.4}{:>12.4}{:>14.4}{:>14.4}{:>14.4}{:>14.4}",
-            p.name,
+        let values = [
             p.from_start_mm,
             p.pinion_curvature_radius_mm,
             p.wheel_curvature_radius_mm,
             p.pinion_specific_sliding,
             p.wheel_specific_sliding,
             p.pinion_diameter_mm,
-            p.wheel_diameter_mm
-        );
+            p.wheel_diameter_mm,
+        ];
+        points.row(p.name, &values.map(Some), 4, "");
     }
+    blocks.push(points);
     if speed_rpm > 0.0 {
-        let _ = writeln!(
-            t,
-            "\n  at {speed_rpm:.0} 1/min of the pinion [m/s]: {:>10}{:>18}{:>18}",
-            "sliding", "pinion rolls at", "wheel rolls at"
-        );
+        let first = format!("at {speed_rpm:.0} 1/min of the pinion [m/s]");
+        let head = [first.as_str(), "sliding", "pinion rolls at", "wheel rolls at"];
+        let mut speeds = GeometryBlock { widths: vec![36, 10, 18, 18], ..GeometryBlock::new(&head) };
         for p in &sheet.points {
-            let at = |v: f64| 1e-3 * v * speed_rpm;
-            let _ = writeln!(
-                t,
-                "  {:<36}{:>10.4}{:>18.4}{:>18.4}",
-                p.name,
-                at(p.sliding_speed_mm_s_per_rpm),
-                at(p.pinion_rolling_speed_mm_s_per_rpm),
-                at(p.wheel_rolling_speed_mm_s_per_rpm)
-            );
+            let all =
+                [p.sliding_speed_mm_s_per_rpm, p.pinion_rolling_speed_mm_s_per_rpm, p.wheel_rolling_speed_mm_s_per_rpm];
+            speeds.row(p.name, &all.map(|v| Some(1e-3 * v * speed_rpm)), 4, "");
         }
+        blocks.push(speeds);
     }
-    t
+    blocks
 }

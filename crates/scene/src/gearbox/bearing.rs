@@ -23,15 +23,19 @@ pub(super) fn bearing(
         None => format!("bearing at {position} mm of {}", shafts[shaft].0),
     };
     let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
-    let (stiffness, rolling) = match &raw.r#type {
-        Some(word) => {
+    let (stiffness, rolling) = match rolling(s, table)? {
+        Some(own) => {
             apart(s, raw)?;
-            ([[0.0; 6]; 6], Some(rolling(s, table, word)?))
+            ([[0.0; 6]; 6], Some(own))
         }
         None => {
             if let Some((span, key)) = TYPED.iter().find_map(|(key, of)| Some((of(raw)?, *key))) {
                 let said = format!("`{key}` is of a rolling bearing");
-                return Err(s.conflict(&span, said, "say which with `type`, or give its stiffness alone"));
+                return Err(s.conflict(
+                    &span,
+                    said,
+                    "say which with `type` or `designation`, or give its stiffness alone",
+                ));
             }
             (stiffness(s, table, &name)?, None)
         }
@@ -52,7 +56,7 @@ fn apart(s: &Source<'_>, raw: &RawBearing) -> Checked<()> {
     ];
     match stated.into_iter().find_map(|(key, span)| Some((key, span?))) {
         Some((key, span)) => {
-            let said = format!("`{key}` of a bearing with a `type`");
+            let said = format!("`{key}` of a bearing with a `type` or `designation`");
             Err(s.conflict(&span, said, "its stiffness follows the load: leave one of both out"))
         }
         None => Ok(()),

@@ -7,6 +7,7 @@ use super::bearing::bearing;
 use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, mid_face_offset};
 use super::housing::housing;
 use super::loads::{apart, loaded};
+use super::mesh_cycles::fastest_per_turn;
 use super::modes::modes;
 use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
@@ -74,7 +75,8 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let housing = raw.housing.as_ref().map(|table| housing(s, table, housed)).transpose()?;
     let rating = rating(s, &raw, (&meshes, &bearings))?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
-    let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
+    let moves = raw.motion.as_ref().map(|table| asked(s, table, fastest_per_turn(input.shaft, &meshes, &gears)));
+    let moves = moves.transpose()?;
     over_time(s, (&raw, &torques), table.get_ref(), moves.as_ref().map(Asked::motion))?;
     let modes = modes(s, &raw, moves.as_ref().map(Asked::motion))?;
     without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;

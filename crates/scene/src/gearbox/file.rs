@@ -220,8 +220,17 @@ pub struct GearboxRolling {
     pub rows: Vec<[f64; 2]>,
     /// Thrust that its seat takes.
     pub seat: ThrustSeat,
-    /// C of the whole bearing, N, ISO 281; none: its life is not told.
+    /// C of the whole bearing, N, ISO 281; none: estimated, or its life is not told.
     pub dynamic_rating: Option<f64>,
+    /// Designation, where it has one: a rating that is not stated is estimated.
+    pub designation: Option<String>,
+}
+
+impl GearboxRolling {
+    /// Whether its life is told where a speed is known.
+    pub fn has_life(&self) -> bool {
+        self.dynamic_rating.is_some() || self.designation.is_some()
+    }
 }
 
 /// Thrust of the shaft that the seat of a bearing takes.
@@ -257,6 +266,15 @@ pub enum RollingSize {
         outer_diameter: f64,
         /// C_0, N.
         static_rating: f64,
+    },
+    /// What the standard of its designation says.
+    Dimensions {
+        /// Bore, mm.
+        bore: f64,
+        /// Outer diameter, mm.
+        outer_diameter: f64,
+        /// Width, mm; of tapered rollers that of both rings together.
+        width: f64,
     },
 }
 

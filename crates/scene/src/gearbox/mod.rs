@@ -4,11 +4,11 @@
 //! |---|---|
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
-//! | `vibration`, `modes`, `motion` | how it swings, with which modes of its gears, and how it runs in time |
+//! | `vibration`, `modes`, `motion`, `mesh_cycles` | how it swings, with which modes of its gears, and how it runs in time, for how many cycles |
 //! | `accuracy` | how exact its numbers are to be |
 //! | `rating` | whether it will hold, at which speed |
 //! | `shaft` | sections of the file, or of a REXS file |
-//! | `bearing`, `rolling`, `seats` | bearings of a stiffness, and those with rolling elements; where they sit |
+//! | `bearing`, `rolling`, `designation`, `seats` | bearings of a stiffness, and those with rolling elements; which a designation says; where they sit |
 //! | `planets` | parts of one planet, written out for all |
 //! | `of_pair`, `whole_pair` | the gearbox that a pair is the short form of: its mesh, and what it has beside that |
 //! | `schema`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
@@ -16,9 +16,11 @@
 mod accuracy;
 mod bearing;
 mod check;
+mod designation;
 mod file;
 mod housing;
 mod loads;
+mod mesh_cycles;
 mod modes;
 mod motion;
 mod of_pair;

@@ -9,6 +9,8 @@ use super::{
 };
 use crate::{Integration, Source};
 
+/// Cycles of a motion at the most.
+const MOST_CYCLES: f64 = 1e6;
 /// Rows of a motion at the most.
 const ROWS: u64 = 500_000;
 /// Least number of rows in a cycle of the fastest mesh: fewer have no peak to peak.
@@ -111,8 +113,9 @@ impl Asked {
 }
 
 /// What the table asks for.
-pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked> {
-    let (raw, motion) = (table.get_ref(), motion(s, table)?);
+/// `per_turn`: cycles of the fastest mesh in a turn of the input.
+pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>, per_turn: f64) -> Checked<Asked> {
+    let (raw, motion) = (table.get_ref(), motion(s, table, per_turn)?);
     if s.choice_of::<GearboxRun>("run", &raw.run)? != GearboxRun::Continuation {
         return match &raw.continuation {
             None => Ok(Asked::Motion(motion)),
@@ -141,6 +144,7 @@ pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked
     }
     let of_rows = [
         ("cycles", raw.cycles.as_ref().map(Spanned::span)),
+        ("duration_s", raw.duration_s.as_ref().map(Spanned::span)),
         ("steps_per_row", raw.steps_per_row.as_ref().map(Spanned::span)),
         ("waterfall_cycles", raw.waterfall_cycles.as_ref().map(Spanned::span)),
         ("checkpoint_every_cycles", raw.checkpoint_every_cycles.as_ref().map(Spanned::span)),
@@ -170,7 +174,7 @@ pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked
     Ok(Asked::Branch(branch))
 }
 
-fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
+fn motion(s: &Source<'_>, table: &Spanned<RawMotion>, per_turn: f64) -> Checked<GearboxMotion> {
     let raw = table.get_ref();
     let drive = s.choice_of("drive", &raw.drive)?;
     let input_torque = given!(s, MOTION, raw.input_torque_nm)?.map(|t| 1e3 * t);
@@ -210,7 +214,8 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
         let said = format!("`{key}` belongs to maps, and there are none");
         return Err(s.conflict(&span, said, "take `mesh = \"mapped\"`, or leave it out"));
     }
-    let cycles = row!(s, MOTION, raw.cycles)?;
+    let speed_rpm = needed_of(s, (table, "[motion]"), &MOTION, "speed_rpm", &raw.speed_rpm)?;
+    let cycles = cycles(s, raw, 0.5 * (speed_rpm + to_speed_rpm.unwrap_or(speed_rpm)) / 60.0 * per_turn)?;
     let steps_per_cycle = row!(s, MOTION, raw.steps_per_cycle)?;
     let steps_per_row = row!(s, MOTION, raw.steps_per_row)?;
     let settle = settle(s, raw, [steps_per_cycle, steps_per_row])?;
@@ -222,7 +227,8 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
     let rows = u64::from(cycles) * u64::from(steps_per_cycle) / u64::from(steps_per_row);
     if rows > ROWS {
         let said = format!("a motion of {rows} rows");
-        return Err(s.conflict(&table.span(), said, format!("{ROWS} at the most: raise `steps_per_row`")));
+        let at = raw.duration_s.as_ref().map_or(table.span(), Spanned::span);
+        return Err(s.conflict(&at, said, format!("{ROWS} at the most: raise `steps_per_row`")));
     }
     Ok(GearboxMotion {
         speed_rpm,
@@ -249,6 +255,25 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
         map_overload: row!(s, MOTION, raw.map_overload)?,
         checkpoint_every_cycles: row!(s, MOTION, raw.checkpoint_every_cycles)?,
     })
+}
+
+/// Cycles of the fastest mesh, stated or of a duration; `mesh_hz`: its mean frequency.
+///
+/// The mean speed of a run-up is that of both ends: its smooth step is even about its middle.
+fn cycles(s: &Source<'_>, raw: &RawMotion, mesh_hz: f64) -> Checked<u32> {
+    let Some(duration) = given!(s, MOTION, raw.duration_s)? else { return row!(s, MOTION, raw.cycles) };
+    let at = raw.duration_s.as_ref().map_or(0..0, Spanned::span);
+    if let Some(own) = &raw.cycles {
+        let said = "`duration_s` and `cycles` both say how long the motion is";
+        return Err(s.conflict(&own.span(), said, "leave one of both out"));
+    }
+    // Digits of a duration are no further cycle.
+    let cycles = (duration * mesh_hz * (1.0 - 1e-9)).ceil().max(1.0);
+    if cycles > MOST_CYCLES {
+        let said = format!("{duration} s are {cycles:.0} cycles of the fastest mesh");
+        return Err(s.conflict(&at, said, format!("{MOST_CYCLES:.0} at the most: take a shorter one")));
+    }
+    Ok(cycles as u32)
 }
 
 /// What a motion waits for before its rows.

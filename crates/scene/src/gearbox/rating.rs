@@ -1,7 +1,7 @@
 //! The table of ratings of a gearbox file, and that nobody asks for one in vain.
 
 use super::{
-    file::{GearboxBearing, GearboxMesh, GearboxRating},
+    file::{GearboxBearing, GearboxMesh, GearboxRating, GearboxRolling},
     schema::{GEARBOX_RATING, RawGearbox},
     values::{Checked, given, needed_of, row},
 };
@@ -14,16 +14,15 @@ pub(super) fn rating(
     (meshes, bearings): (&[GearboxMesh], &[GearboxBearing]),
 ) -> Checked<Option<GearboxRating>> {
     let rated_mesh = meshes.iter().position(|mesh| mesh.scene.rating.is_some());
-    let rated_bearing =
-        bearings.iter().position(|own| own.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some()));
+    let rated_bearing = bearings.iter().position(|own| own.rolling.as_ref().is_some_and(GearboxRolling::has_life));
     let Some(table) = &raw.rating else {
         let advice = "add [rating] with `speed_rpm`, the speed of the input";
         if let Some(i) = rated_mesh {
             let said = format!("the pair of mesh \"{}\" is to be rated, and no speed is stated", meshes[i].name);
             return Err(s.conflict(&raw.mesh[i].span(), said, advice));
         }
-        let at = rated_bearing.and_then(|i| raw.bearing[i].get_ref().dynamic_rating_kn.as_ref());
-        return match at {
+        let stated = raw.bearing.iter().find_map(|own| own.get_ref().dynamic_rating_kn.as_ref());
+        return match stated {
             Some(own) => Err(s.conflict(&own.span(), "the life of a bearing without a speed", advice)),
             None => Ok(None),
         };
@@ -48,7 +47,8 @@ pub(super) fn rating(
             return Err(s.conflict(&word.span(), "a load spectrum without a torque", advice));
         }
         if rated_mesh.is_none() && rated_bearing.is_none() {
-            let advice = "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn`";
+            let advice =
+                "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn` or `designation`";
             return Err(s.conflict(&word.span(), "a load spectrum, and nothing has a life", advice));
         }
     }
@@ -59,7 +59,7 @@ pub(super) fn rating(
     }
     if let Some(number) = &own.contamination_factor {
         if rated_bearing.is_none() {
-            let advice = "give one its `dynamic_rating_kn`, or leave it out";
+            let advice = "give one its `dynamic_rating_kn` or `designation`, or leave it out";
             return Err(s.conflict(
                 &number.span(),
                 "`contamination_factor` needs a bearing with `dynamic_rating_kn`",
@@ -72,8 +72,7 @@ pub(super) fn rating(
         }
     }
     if rated_mesh.is_none() && rated_bearing.is_none() && viscosity.is_none() {
-        let advice =
-            "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn`; or leave it out";
+        let advice = "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn` or `designation`; or leave it out";
         return Err(s.conflict(&table.span(), "[rating] rates nothing", advice));
     }
     let speed_rpm = needed_of(s, (table, "[rating]"), &GEARBOX_RATING, "speed_rpm", &own.speed_rpm)?;

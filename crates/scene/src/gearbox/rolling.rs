@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 use super::{
+    designation::{Designation, Unknown, designation},
     file::{AxialPlay, GearboxRolling, RollingSize, ThrustSeat},
     schema::{Arrangement, BEARING, RawBearing, RollerProfile, RollingKind, Thrust},
     values::{Checked, given, missing, needed_number, needed_of, row},
@@ -73,8 +74,95 @@ impl RollingKind {
     }
 }
 
-pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanned<String>) -> Checked<GearboxRolling> {
-    let (raw, name) = (table.get_ref(), word.get_ref().as_str());
+/// A bearing with rolling elements; `None` of one that says neither `type` nor `designation`.
+pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>) -> Checked<Option<GearboxRolling>> {
+    let raw = table.get_ref();
+    let standard = raw.designation.as_ref().map(|word| of_standard(s, raw, word)).transpose()?;
+    let kind = match (&standard, &raw.r#type) {
+        (Some(own), _) => own.kind,
+        (None, Some(word)) => kind(s, word)?,
+        (None, None) => return Ok(None),
+    };
+    let name = word_of(kind);
+    if let Some((span, key)) = TYPED.iter().filter(|k| !kind.takes(k.0)).find_map(|(key, of)| Some((of(raw)?, key))) {
+        return Err(s.conflict(&span, format!("a \"{name}\" bearing has no `{key}`"), advice(key)));
+    }
+    let angle = match kind {
+        RollingKind::AngularContactBall => [5.0, 75.0],
+        RollingKind::TaperedRoller => [1.0, 60.0],
+        _ => [0.0; 2],
+    };
+    let contact_angle_deg = match standard {
+        Some(own) => own.contact_angle_deg,
+        None if kind.has_angle() => needed(s, table, "contact_angle_deg", &raw.contact_angle_deg, angle)?,
+        None => 0.0,
+    };
+    let profile: RollerProfile = s.choice_of("profile", &raw.profile)?;
+    Ok(Some(GearboxRolling {
+        kind,
+        size: size(s, table, (kind, standard))?,
+        contact_angle: contact_angle_deg.to_radians(),
+        conformity: [row!(s, BEARING, raw.inner_conformity)?, row!(s, BEARING, raw.outer_conformity)?],
+        straight_rollers: profile == RollerProfile::Straight,
+        radial_clearance: 1e-3 * row!(s, BEARING, raw.radial_clearance_um)?,
+        axial: axial(s, raw)?,
+        rows: rows(s, table, kind)?,
+        seat: seat(s, raw, kind)?,
+        dynamic_rating: given!(s, BEARING, raw.dynamic_rating_kn)?.map(|x| 1e3 * x),
+        designation: raw.designation.as_ref().map(|word| word.get_ref().clone()),
+    }))
+}
+
+/// The word of a kind in the file.
+fn word_of(kind: RollingKind) -> &'static str {
+    let all = <RollingKind as crate::table::Choice>::CHOICES;
+    all.iter().find(|(_, own)| *own == kind).map_or("rolling", |(word, _)| word)
+}
+
+/// The bearing of a designation, which stands for the keys of type and boundary dimensions.
+fn of_standard(s: &Source<'_>, raw: &RawBearing, word: &Spanned<String>) -> Checked<Designation> {
+    let stands_for = [
+        ("type", raw.r#type.as_ref().map(Spanned::span)),
+        ("bore_mm", raw.bore_mm.as_ref().map(Spanned::span)),
+        ("outer_diameter_mm", raw.outer_diameter_mm.as_ref().map(Spanned::span)),
+        ("contact_angle_deg", raw.contact_angle_deg.as_ref().map(Spanned::span)),
+        ("rows", raw.rows.as_ref().map(Spanned::span)),
+    ];
+    if let Some((key, span)) = stands_for.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        let said = format!("`{key}` beside a designation, which says it");
+        return Err(s.conflict(&span, said, "leave one of both out"));
+    }
+    designation(word.get_ref()).map_err(|unknown| {
+        let name = word.get_ref();
+        let (said, hint) = match unknown {
+            Unknown::Series => (
+                format!("no series of the designation \"{name}\" is known"),
+                "deep groove balls 618, 619, 60, 62, 63, 64; angular contact balls 70, 72, 73; cylindrical rollers NU, NJ, \
+                 NUP or N with 10, 2, 22, 3, 23, 4; tapered rollers 302, 303, 313, 320, 322, 323. For others give `type`, \
+                 `bore_mm`, `outer_diameter_mm` and `static_rating_kn`"
+                    .to_owned(),
+            ),
+            Unknown::Suffix(suffix) => (
+                format!("\"{suffix}\" is no part of the basic designation in \"{name}\""),
+                "leave seals, cage and clearance out; the clearance in operation is `radial_clearance_um` or \
+                 `axial_clearance_um`"
+                    .to_owned(),
+            ),
+            Unknown::Size([least, most]) => {
+                (format!("no bearing \"{name}\" is known"), format!("the series goes from {least} to {most}"))
+            }
+            Unknown::Angle => (
+                format!("\"{name}\" has no letter for its contact angle"),
+                format!("write \"{name}C\" (15 degrees), \"{name}AC\" (25), \"{name}A\" (30) or \"{name}B\" (40)"),
+            ),
+        };
+        s.conflict(&word.span(), said, hint)
+    })
+}
+
+/// The kind that a word says.
+fn kind(s: &Source<'_>, word: &Spanned<String>) -> Checked<RollingKind> {
+    let name = word.get_ref().as_str();
     if OTHERS.contains(&name) {
         let said = format!("there is no law of a \"{name}\" bearing here");
         let known = <RollingKind as crate::table::Choice>::WORDS
@@ -84,33 +172,7 @@ pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanne
             .join(", ");
         return Err(s.conflict(&word.span(), said, format!("give its stiffness, or take one of {known}")));
     }
-    let kind: RollingKind = s.meaning_of("type", word)?;
-    if let Some((span, key)) = TYPED.iter().filter(|k| !kind.takes(k.0)).find_map(|(key, of)| Some((of(raw)?, key))) {
-        return Err(s.conflict(&span, format!("a \"{name}\" bearing has no `{key}`"), advice(key)));
-    }
-    let angle = match kind {
-        RollingKind::AngularContactBall => [5.0, 75.0],
-        RollingKind::TaperedRoller => [1.0, 60.0],
-        _ => [0.0; 2],
-    };
-    let contact_angle = if kind.has_angle() {
-        needed(s, table, "contact_angle_deg", &raw.contact_angle_deg, angle)?.to_radians()
-    } else {
-        0.0
-    };
-    let profile: RollerProfile = s.choice_of("profile", &raw.profile)?;
-    Ok(GearboxRolling {
-        kind,
-        size: size(s, table, kind)?,
-        contact_angle,
-        conformity: [row!(s, BEARING, raw.inner_conformity)?, row!(s, BEARING, raw.outer_conformity)?],
-        straight_rollers: profile == RollerProfile::Straight,
-        radial_clearance: 1e-3 * row!(s, BEARING, raw.radial_clearance_um)?,
-        axial: axial(s, raw)?,
-        rows: rows(s, table, kind)?,
-        seat: seat(s, raw, kind)?,
-        dynamic_rating: given!(s, BEARING, raw.dynamic_rating_kn)?.map(|x| 1e3 * x),
-    })
+    s.meaning_of("type", word)
 }
 
 /// What to do about a key that a kind does not take.
@@ -139,7 +201,11 @@ fn needed(
 }
 
 /// Rolling elements, or what they are estimated from.
-fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Checked<RollingSize> {
+fn size(
+    s: &Source<'_>,
+    table: &Spanned<RawBearing>,
+    (kind, standard): (RollingKind, Option<Designation>),
+) -> Checked<RollingSize> {
     let raw = table.get_ref();
     let stated = raw.elements.is_some() || raw.element_diameter_mm.is_some() || raw.element_length_mm.is_some();
     let of_row = |key, value| needed_of(s, (table, "[[bearing]]"), &BEARING, key, value);
@@ -149,6 +215,12 @@ fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
         if let Some(pitch) = &raw.pitch_diameter_mm {
             let said = "a pitch diameter without rolling elements";
             return Err(s.conflict(&pitch.span(), said, "give `elements` and `element_diameter_mm` with it"));
+        }
+        if let Some(Designation { bore, outer_diameter, width, .. }) = standard {
+            return Ok(match given!(s, BEARING, raw.static_rating_kn)? {
+                Some(rating) => RollingSize::Catalogue { bore, outer_diameter, static_rating: 1e3 * rating },
+                None => RollingSize::Dimensions { bore, outer_diameter, width },
+            });
         }
         if raw.bore_mm.is_none() && raw.static_rating_kn.is_none() {
             let what = "how many rolling elements a row has, or `bore_mm`, `outer_diameter_mm` and `static_rating_kn`";
@@ -169,12 +241,13 @@ fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
     let elements = s.whole_of(&BEARING, "elements", &Some(count.clone()))?;
     let diameter = of_row("element_diameter_mm", &raw.element_diameter_mm)?;
     let length = if kind.has_balls() { 0.0 } else { of_row("element_length_mm", &raw.element_length_mm)? };
-    let middle = raw.pitch_diameter_mm.is_none() && raw.bore_mm.is_some();
-    let pitch_diameter = if middle {
-        let bore = bore(1e-2)?;
-        0.5 * (bore + outer(bore)?)
-    } else {
-        of_row("pitch_diameter_mm", &raw.pitch_diameter_mm)?
+    let pitch_diameter = match standard.filter(|_| raw.pitch_diameter_mm.is_none()) {
+        Some(own) => 0.5 * (own.bore + own.outer_diameter),
+        None if raw.pitch_diameter_mm.is_none() && raw.bore_mm.is_some() => {
+            let bore = bore(1e-2)?;
+            0.5 * (bore + outer(bore)?)
+        }
+        None => of_row("pitch_diameter_mm", &raw.pitch_diameter_mm)?,
     };
     Ok(RollingSize::Elements { elements, diameter, length, pitch_diameter })
 }

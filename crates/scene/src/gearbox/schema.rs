@@ -118,10 +118,11 @@ table! {
         matrix_n_mm_rad: rows(0), "5 or 6 rows for x, y, z and the turns about x, y (and z): N/mm, N/rad and N mm/mm, N mm/rad; symmetric, no negative stiffness";
         damping_n_s_per_mm: numbers(), "damping along x, y and z, N s/mm, 0 .. 1e12 each, for vibration and motion; default: 0, 0, 0";
         r#type: bare_word(RollingKind), "what rolls in it; default: a bearing of a stiffness. Needle rollers are cylindrical ones; there is no law of spherical, toroidal, self-aligning, thrust, four-point contact and plain bearings: give their stiffness";
+        designation: text(), "in place of `type`, `bore_mm`, `outer_diameter_mm` and `contact_angle_deg`: the basic designation of a bearing of one row, as \"6206\", \"61810\", \"7206B\", \"NU206\", \"32206\", \"32006X\", with the dimensions of ISO 15 and ISO 355. Rolling elements and ratings that are not stated are estimated from these dimensions: ratings are within a fifth of catalogue values, of cylindrical rollers up to 27 % below them; no stiffness of a catalogue stands behind the estimate";
         bore_mm: bare(1e-2, 1e5), "bore, mm. With outer diameter and static rating in place of what rolls, which is then estimated";
         outer_diameter_mm: bare(1e-2, 1e5), "outer diameter, mm, of a bearing that is estimated";
         static_rating_kn: bare(1e-6, 1e9), "C_0 of the whole bearing, kN, ISO 76";
-        dynamic_rating_kn: bare(1e-6, 1e9), "C of the whole bearing, kN, ISO 281: reports its life; needs `[rating]` of the gearbox";
+        dynamic_rating_kn: bare(1e-6, 1e9), "C of the whole bearing, kN, ISO 281: reports its life; needs `[rating]` of the gearbox; default: estimated of a bearing with a `designation`, else none";
         elements: bare_whole(3, 500), "rolling elements of one row";
         element_diameter_mm: bare(1e-2, 1e5), "their diameter, mm; of tapered rollers in the middle";
         element_length_mm: bare(1e-2, 1e5), "of rollers: the length that presses, mm";
@@ -219,7 +220,7 @@ table! {
 
 table! {
     /// `[rating]`
-    GEARBOX_RATING, RawGearboxRating: "load capacity at rest: of every mesh whose scene has `[rating]`, under the torque and at the speed that it has here, the life of every bearing with `dynamic_rating_kn` after ISO/TS 16281, and what meshes and bearings lose", needed ["speed_rpm"]; {
+    GEARBOX_RATING, RawGearboxRating: "load capacity at rest: of every mesh whose scene has `[rating]`, under the torque and at the speed that it has here, the life of every bearing with `dynamic_rating_kn` or a `designation` after ISO/TS 16281, and what meshes and bearings lose", needed ["speed_rpm"]; {
         speed_rpm: must(1e-3, 1e6), "speed of the input, 1/min";
         viscosity_mm2_per_s: bare(1e-3, 1e6), "kinematic viscosity of the oil in the bearings at their temperature, mm^2/s: what rolling bearings lose, and with `contamination_factor` how long they last";
         contamination_factor: bare(1e-3, 1.0), "e_C of ISO 281, what dirt leaves of the fatigue limit: modified lives beside the basic ones. 1 extreme cleanliness, 0.8 .. 0.6 filtered and sealed for life, 0.6 .. 0.5 sealed, 0.5 .. 0.3 slight dirt. Needs `viscosity_mm2_per_s`";
@@ -328,6 +329,7 @@ table! {
         input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
         mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_excess` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes flanks by tooth. mapped and exact have friction and, with `flanks = \"both\"` in the scene of the pair, flanks on both sides; else the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
+        duration_s: bare(1e-9, 1e6), "in place of `cycles`: length of the motion, of a run-up from `speed_rpm` to `to_speed_rpm`, s; in whole cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
         waterfall_cycles: whole(4, 100_000, 16), "cycles of the slowest mesh of one spectrum of the waterfall (to_speed_rpm), and of a point of the orders of the meshes over time or speed";

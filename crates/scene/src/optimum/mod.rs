@@ -16,6 +16,6 @@ mod schema;
 mod words;
 
 pub use file::{DesignParameter, Optimisation, TorqueWeight};
-pub use numbers::{NumberLimit, NumberOptimisation};
+pub use numbers::{NumberLimit, NumberLoad, NumberOptimisation};
 pub(crate) use schema::{OPTIMISATION, OPTIMISE};
 pub use words::OptimisationWords;

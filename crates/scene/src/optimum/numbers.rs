@@ -29,8 +29,19 @@ pub struct NumberOptimisation {
     pub goals: Vec<PlanOutput>,
     /// Numbers that shall not be larger than their limits.
     pub limits: Vec<NumberLimit>,
-    /// Evaluations at the most; each solves the design and one neighbour a parameter.
+    /// Loads under which they count; at least one.
+    pub loads: Vec<NumberLoad>,
+    /// Evaluations at the most; each solves the design and one neighbour a parameter, under every load.
     pub evaluations: u32,
+}
+
+/// A load under which numbers count.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NumberLoad {
+    /// Torque on the driven gear of a pair, or the first one of a gearbox, N m.
+    pub torque_nm: f64,
+    /// What sets it beside the document; nothing where it is the document's own.
+    pub settings: Vec<Setting>,
 }
 
 /// A number and its limit.
@@ -58,7 +69,6 @@ impl NumberOptimisation {
         let wrong = |label: String, what: &str| SceneError::Setting { label, what: what.to_owned() };
         let beside = [
             ("--measure", words.measure.is_some()),
-            ("--torques", !words.torques_nm.is_empty()),
             ("--max-pressure", words.max_pressure_mpa.is_some()),
             ("--max-edge-pressure", words.max_edge_pressure_mpa.is_some()),
             ("--front", words.front > 0),
@@ -82,7 +92,9 @@ impl NumberOptimisation {
         let goals = words.goals.iter().map(goal).collect::<Result<Vec<_>, _>>()?;
         let evaluations = words.evaluations.clamp(1, EVALUATIONS[1]);
         let (name, file) = (document.stem(), document.file().to_owned());
-        Self { name, file, document, settings: settings.to_vec(), parameters, goals, limits, evaluations }.finish()
+        let loads = loads(&own, words.torques_nm).map_err(|what| wrong("--torques".into(), &what))?;
+        Self { name, file, document, settings: settings.to_vec(), parameters, goals, limits, loads, evaluations }
+            .finish()
     }
 
     /// What the whole must be: every key is there once and changes something, and the start is a machine.
@@ -152,6 +164,16 @@ impl NumberOptimisation {
         self.document.machine(&self.settings_of(values)?)
     }
 
+    /// The pair, or the gearbox, of a design under a load.
+    ///
+    /// # Errors
+    /// [`SceneError`]: what the document does not allow.
+    pub fn machine_under(&self, values: &[f64], load: &NumberLoad) -> Result<Machine, SceneError> {
+        let mut settings = self.settings_of(values)?;
+        settings.extend(load.settings.iter().cloned());
+        self.document.machine(&settings)
+    }
+
     /// The design beside one, a difference away along a parameter, within its bounds; and the difference.
     pub fn beside(&self, values: &[f64], parameter: usize) -> (Vec<f64>, f64) {
         let [lowest, highest] = self.parameters[parameter].bounds;
@@ -176,7 +198,6 @@ pub(super) fn numbers(
     let beside = [
         ("measure", asked.measure.is_some()),
         ("harmonics", asked.harmonics.is_some()),
-        ("torques_nm", asked.torques_nm.is_some()),
         ("weights", asked.weights.is_some()),
         ("max_pressure_mpa", asked.max_pressure_mpa.is_some()),
         ("max_edge_pressure_mpa", asked.max_edge_pressure_mpa.is_some()),
@@ -204,7 +225,41 @@ pub(super) fn numbers(
     let limits = limits.collect::<Result<Vec<_>, _>>()?;
     let evaluations = s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?;
     let (name, file) = (s.title(&raw.name), s.file.to_owned());
-    NumberOptimisation { name, file, document, settings, parameters, goals, limits, evaluations }.finish()
+    let asked_nm = asked.torques_nm.as_ref().map_or(&[][..], |list| list.get_ref());
+    let asked_nm: Vec<f64> = asked_nm.iter().map(|own| *own.get_ref()).collect();
+    let at = asked.torques_nm.as_ref().map_or(0..0, Spanned::span);
+    let loads = loads(&own, &asked_nm).map_err(|what| s.conflict(&at, what, "give torques in N m"))?;
+    NumberOptimisation { name, file, document, settings, parameters, goals, limits, loads, evaluations }.finish()
+}
+
+/// Loads of some torques (N m), of a gearbox on the first `[[torque]]` with all others in proportion; without any the
+/// machine's own load.
+fn loads(machine: &Machine, torques_nm: &[f64]) -> Result<Vec<NumberLoad>, String> {
+    let own: Vec<(String, f64)> = match machine {
+        Machine::Pair(scene) => vec![("operation.torque_nm".to_owned(), scene.operation.torque_nm)],
+        Machine::Gearbox(file) => {
+            let torques = file.torques.iter().enumerate();
+            torques.map(|(i, own)| (format!("torque.{i}.torque_nm"), 1e-3 * own.torque)).collect()
+        }
+    };
+    let first = own.first().map_or(0.0, |(_, torque_nm)| *torque_nm);
+    if torques_nm.is_empty() {
+        return Ok(vec![NumberLoad { torque_nm: first, settings: Vec::new() }]);
+    }
+    if let Some(none) = torques_nm.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
+        return Err(format!("{none} is not a torque above 0"));
+    }
+    if first == 0.0 && own.len() > 1 {
+        return Err("the first [[torque]] has none that others could go with".to_owned());
+    }
+    let of = |&torque_nm: &f64| {
+        let scaled = |(key, own): &(String, f64)| {
+            Setting::number(key, if first == 0.0 { torque_nm } else { own * torque_nm / first })
+        };
+        let settings = own.iter().map(scaled).collect::<Result<Vec<_>, _>>().map_err(|e| e.to_string())?;
+        Ok(NumberLoad { torque_nm, settings })
+    };
+    torques_nm.iter().map(of).collect()
 }
 
 /// The limit that `NUMBER=MOST` says.

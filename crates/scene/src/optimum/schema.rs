@@ -21,7 +21,7 @@ table! {
         limit: texts(), "limits of numbers of the headline, `KEY=MOST`; with goal";
         measure: text(), "what of the transmission error shall be small: peak-to-peak, rms or harmonics; default: peak-to-peak. peak-to-peak: weighted mean over the torques; rms: of the error less its mean; harmonics: root mean square of some mesh harmonics";
         harmonics: wholes(), "which mesh harmonics; default: the first";
-        torques_nm: numbers(), "torques at which it counts, N m; default: the scene's";
+        torques_nm: numbers(), "torques at which it counts, N m, on the driven gear of a pair, or of the first `[[torque]]` of a gearbox with all others in proportion; default: the document's";
         weights: numbers(), "what each of them counts; default: 1 each";
         evaluations: whole(1, EVALUATIONS[1], EVALUATIONS[0]), "evaluations at the most; one solves all torques and samples with their derivatives";
         max_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of the contact pressure at all positions and torques, MPa";

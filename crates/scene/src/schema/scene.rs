@@ -58,7 +58,7 @@ table! {
     MISALIGNMENT, RawMisalignment => MisalignmentScene Copy Default: "deviation of the wheel's axis against the pinion's over the common face width, turned about the wheel's mid-face; the parts add up, each at most 10 um a mm of the narrower face width"; {
         deviation_um: number(-INF, INF, 0.0), "f_Sigma_beta: deviation of the wheel's axis across the plane of axes, um over the face width. Positive where the wheel's axis leans towards +y as z grows";
         inclination_um: number(-INF, INF, 0.0), "f_Sigma_delta: deviation of the wheel's axis in the plane of axes, um over the face width. Positive where the distance of the axes grows with z";
-        in_plane_of_action_um: number(-INF, INF, 0.0), "deviation in the plane of action of the driving flanks, um over the face width. Positive where the gap opens as z grows; acts as a lead slope of this amount times cos(b_b)";
+        in_plane_of_action_um: number(-INF, INF, 0.0), "deviation in the plane of action of the driving flanks, um over the face width. Positive where the gap opens as z grows; of a spur pair it acts as a lead slope of this amount, of a helical pair it opens the gap along the contact lines";
         across_plane_of_action_um: number(-INF, INF, 0.0), "deviation across the plane of action, um over the face width. Has next to no effect";
     }
 }

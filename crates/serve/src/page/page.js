@@ -6,16 +6,18 @@
   // The text that was loaded or written, and what is set beside it.
   const scene = { text: $("text").value, set: {} };
   // Numbers of moves: made, and shown; those under way; whether another waits to be sent.
-  const moves = { made: 0, shown: 0, under: 0, waits: false, since: 0 };
+  const moves = { made: 0, shown: 0, under: 0, waits: false, since: 0, search: null };
   // When moves were made and drawn, ms, for who measures.
   const drawn = [];
   const MOST_UNDER_WAY = 2;
 
   const send = async () => {
     if (moves.under >= MOST_UNDER_WAY) { moves.waits = true; return; }
-    const number = ++moves.made, since = moves.since, body = JSON.stringify({ page, number, ...scene });
+    const number = ++moves.made, since = moves.since, search = moves.search ?? {}, body = JSON.stringify({ page, number, ...scene, search });
+    moves.search = null;
     moves.under += 1;
-    const slow = setTimeout(() => { main.classList.add("waits"); $("time").textContent = ""; $("status").textContent = "solving; other gears are reduced first"; }, 400);
+    const seeks = Object.keys(search).length > 0;
+    const slow = setTimeout(() => { main.classList.add("waits"); $("time").textContent = ""; $("status").textContent = seeks ? "searching" : "solving; other gears are reduced first"; }, 400);
     try {
       const reply = await fetch("solve", { method: "POST", body });
       // 409: a later move has come.
@@ -34,9 +36,26 @@
   };
 
   const set = (key, value) => {
-    moves.since = performance.now();
+    begun(key);
     scene.set[key] = value;
     send();
+  };
+
+  // The curves before a move that begins: of another key, or after a pause. They stay behind those that follow as ghosts.
+  const PAUSE_MS = 1500;
+  let last = null, ghosts = new Map(), key_moved = null;
+  const begun = key => {
+    const now = performance.now();
+    if (key !== key_moved || now - moves.since > PAUSE_MS) ghosts = new Map((last ?? []).map(data => [data.title, data]));
+    key_moved = key;
+    moves.since = now;
+  };
+  // A chart with its ghost, where both have the same abscissa.
+  const haunted = data => {
+    const before = ghosts.get(data.title);
+    const alike = before && ["lines", "bars", "sticks"].includes(data.kind) && String(before.data[0]) === String(data.data[0]) && before.names.length === data.names.length;
+    if (!alike || JSON.stringify(before.data) === JSON.stringify(data.data)) return data;
+    return { ...data, ghost: data.names.length, names: [...data.names, ...before.names.map((name, k) => k === 0 ? "before" : "")], colours: [...data.colours, ...before.colours], data: [...data.data, ...before.data.slice(1)] };
   };
 
   // Complaints: at the top, and beside the keys they are about.
@@ -82,7 +101,7 @@
       $("sliders").replaceChildren(...groups.values());
     }
     for (const slider of sliders) {
-      const place = document.querySelector(`.slider[data-key="${slider.key}"]`), [exact, range] = place.querySelectorAll("input");
+      const place = document.querySelector(`.slider[data-key="${slider.key}"]`), [exact, range] = ["text", "range"].map(type => place.querySelector(`[type=${type}]`));
       const value = valueOf(slider.key, answer) ?? String(slider.rest), number = Number(value);
       if (document.activeElement !== exact) exact.value = value;
       if (!Number.isFinite(number)) continue;
@@ -108,9 +127,28 @@
     range.setAttribute("aria-valuetext", unit);
     range.addEventListener("input", () => { exact.value = range.value; range.setAttribute("aria-valuetext", `${range.value} ${unit}`); set(key, range.value); });
     exact.addEventListener("change", () => set(key, exact.value));
+    if (/\.modification\./.test(key)) {
+      const tick = Object.assign(document.createElement("input"), { type: "checkbox", className: "seek", title: "the search may move it" });
+      tick.setAttribute("aria-label", `the search may move the ${label}`);
+      tick.addEventListener("change", () => { $("seek").disabled = !document.querySelector(".seek:checked"); });
+      name.prepend(tick, " ");
+    }
     place.append(name, exact, Object.assign(document.createElement("span"), { className: "unit", textContent: unit }), range);
     return place;
   };
+
+  // The search moves what is ticked, each between the ends of its slider.
+  const seek = () => {
+    const ticked = [...document.querySelectorAll(".slider")].filter(place => place.querySelector(".seek:checked"));
+    moves.search = Object.fromEntries(ticked.map(place => { const { min, max } = place.querySelector("[type=range]"); return [place.dataset.key, [Number(min), Number(max)]]; }));
+    begun("search");
+    send();
+  };
+  const found = ({ set: values, peak_to_peak_um: [from, to], evaluations }) => {
+    Object.assign(scene.set, values);
+    $("sought").textContent = `Peak to peak ${from.toPrecision(3)} µm before, ${to.toPrecision(3)} µm now, after ${evaluations} evaluations. Grind: ${Object.entries(values).map(([key, value]) => `${key.replace(".modification.", " ").replace(/_/g, " ")} ${value}`).join(", ")}.`;
+  };
+  $("seek").addEventListener("click", seek);
 
   const fields = [...document.querySelectorAll(".row")].map(row => [row.dataset.key, row.querySelector("input, select")]);
   fields.forEach(([key, field]) => field.addEventListener("change", () => set(key, field.value)));
@@ -154,7 +192,7 @@
   const numbers = glance => {
     const boxes = glance.map(([what, value]) => {
       const box = document.createElement("div");
-      box.append(Object.assign(document.createElement("span"), { textContent: what }), Object.assign(document.createElement("b"), { textContent: value }));
+      box.append(Object.assign(document.createElement("span"), { textContent: what }), Object.assign(document.createElement("b"), { textContent: value.replace("/", "/\u2060") }));
       return box;
     });
     $("glance").replaceChildren(...boxes);
@@ -169,7 +207,8 @@
     if (!answer.text) { tell(answer.fault); return; }
     moves.shown = number;
     const result = answer.result;
-    if (result) chart($("first"), "first", result.charts[0], false);
+    if (answer.sought) found(answer.sought);
+    if (result) chart($("first"), "first", haunted(result.charts[0]), false);
     tell(answer.fault);
     if (!result) { about(answer); return; }
     $("status").textContent = "solved";
@@ -185,9 +224,10 @@
 
   const others = result => {
     for (const data of result.charts.slice(1)) {
-      const figure = figureOf(data.title);
-      drawIn(figure, () => chart(figure, data.title, data, false));
+      const figure = figureOf(data.title), shown = haunted(data);
+      drawIn(figure, () => chart(figure, data.title, shown, false));
     }
+    last = result.charts;
     $("pattern").hidden = result.maps.length === 0;
     drawIn($("pattern"), () => result.maps.forEach((data, k) => chart($("pattern"), `map ${k}`, data, true)));
     numbers(result.glance);
@@ -203,7 +243,7 @@
   };
 
   $("text").addEventListener("change", () => { scene.text = $("text").value; scene.set = {}; send(); });
-  $("back").addEventListener("click", () => { scene.set = {}; moves.since = performance.now(); send(); });
+  $("back").addEventListener("click", () => { scene.set = {}; begun(null); send(); });
   $("copy").addEventListener("click", async () => {
     try {
       await navigator.clipboard.writeText($("text").value);

@@ -63,13 +63,36 @@ fn all_that_is_drawn_comes_with_a_move() {
     let answer = Served::new(&text).answer(&text, json!({}));
     let result = &answer["result"];
     let titles: Vec<&str> = result["charts"].as_array().unwrap().iter().filter_map(|c| c["title"].as_str()).collect();
-    assert_eq!(titles[..2], ["Static transmission error", "Load sharing"]);
+    let first = ["Static transmission error", "Spectrum of the static transmission error", "Load sharing"];
+    assert_eq!(titles[..3], first);
     assert_eq!(result["charts"][0]["data"][0].as_array().unwrap().len(), 6, "a place a position");
     assert_eq!(result["maps"].as_array().unwrap().len(), 2, "the pattern on either flank");
     let frames = result["view"]["frames"].as_array().unwrap();
     assert!(frames.len() == 6 && frames.iter().all(|f| !f["bands"].as_array().unwrap().is_empty()), "loaded bands");
     assert_eq!(answer["written"]["operation.torque_nm"], "150.0");
     assert_eq!(answer["effective"]["operation.speed_rpm"], "1000.0", "defaults filled in");
+}
+
+/// A search lowers the transmission error of what is ticked within its ends, and answers with the pair that has it: the
+/// same numbers as a move to the values found.
+#[test]
+fn a_search_answers_with_the_flatter_pair() {
+    let text = with_contact();
+    let served = Served::new(&text);
+    let (tip, crowning) = ("pinion.modification.tip_relief_um", "wheel.modification.lead_crowning_um");
+    let search = json!({ tip: [0.0, 30.0], crowning: [0.0, 20.0] });
+    let reply = served
+        .post(&json!({ "page": served.open(), "number": 1, "text": text, "set": {}, "search": search }).to_string());
+    assert_eq!(reply.status, 200, "{}", reply.body);
+    let found: Value = serde_json::from_str(&reply.body).unwrap();
+    let [from, to] = [0, 1].map(|i| found["sought"]["peak_to_peak_um"][i].as_f64().unwrap());
+    assert!(to < 0.9 * from, "{to} um after {from} um: {}", found["sought"]);
+    let set = found["sought"]["set"].as_object().unwrap();
+    let value = |key: &str| set[key].as_str().unwrap().parse::<f64>().unwrap();
+    assert!((0.0..=30.0).contains(&value(tip)) && (0.0..=20.0).contains(&value(crowning)), "{set:?}");
+    let headline = &found["result"]["headline"];
+    assert!((headline["peak_to_peak_ste_um"].as_f64().unwrap() / to - 1.0).abs() < 1e-3, "{to} um: {headline}");
+    assert_eq!(*headline, headline_of_a_run(found["text"].as_str().unwrap()));
 }
 
 #[test]

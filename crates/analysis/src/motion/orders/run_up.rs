@@ -74,7 +74,7 @@ described::described! {
 impl PeakOverSpeed {
     /// Speed and mesh frequency in words.
     pub fn place(&self) -> String {
-        format!("at {:.1}/min, {:.1} Hz", self.driver_speed_rpm, self.mesh_frequency_hz)
+        format!("at {:.1} rpm, {:.1} Hz", self.driver_speed_rpm, self.mesh_frequency_hz)
     }
 }
 

@@ -163,7 +163,7 @@ pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), AnalysisEr
     let failed = |row: &SweepRow| row.status == SweepStatus::Failed;
     match rows.first() {
         Some(first) if rows.iter().all(failed) => {
-            let what = format!("no speed has a result, at {:.0}/min: {}", first.speed_rpm, first.reason);
+            let what = format!("no speed has a result, at {:.0} rpm: {}", first.speed_rpm, first.reason);
             Err(in_scene(scene)(Refusal::no_result(what, Some(MOTION_HINT.to_owned()))))
         }
         _ => Ok(()),

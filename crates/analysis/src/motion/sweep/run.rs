@@ -69,8 +69,8 @@ pub(super) fn run(
         let outcomes = swept(&prepared.system, &plan, &|outcome: &SweepOutcome| {
             progress.tick();
             match outcome {
-                Ok(point) => progress.say(format!("{:.0}/min", point.speed / RPM)),
-                Err(miss) => progress.say(format!("{:.0}/min: {}", miss.speed / RPM, miss.error)),
+                Ok(point) => progress.say(format!("{:.0} rpm", point.speed / RPM)),
+                Err(miss) => progress.say(format!("{:.0} rpm: {}", miss.speed / RPM, miss.error)),
             }
             match outcome {
                 _ if progress.is_cancelled() => ControlFlow::Break(()),

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use analysis::accuracy::{
-    CalibratedMesh, Calibration, Features, MeshLaw, PairLaw, PositionsLaw, Quantity, QuantityLaws, Sample, Seen,
+    CalibratedMesh, Calibration, MeshLaw, PairLaw, PositionsLaw, Quantity, QuantityLaws, together,
 };
 use serde_json::Value;
 use verification::{
     held_out::{held_out, spur_alone},
-    measured_pair::{MeasuredPair, RUNGS},
+    measured_pair::{LEAST_ERROR, MeasuredPair, RUNGS},
     pair_law_fit::{Fitted, Known, PairCase, conformal, fit},
 };
 
@@ -35,9 +35,9 @@ pub(super) fn table(lines: &[Value]) -> Result<Calibration, Failure> {
     let pairs: Vec<&MeasuredPair> = of_curves.iter().copied().filter(|pair| pair.has_meshes()).collect();
     println!("{} pairs on meshes, curves of {} pairs and of {} spur pairs", pairs.len(), of_curves.len(), spur.len());
     let mut quantities = Vec::new();
-    for q in Quantity::ALL.iter().copied().filter(|q| !q.is_of_motion()) {
-        let laws = laws(&pairs, &of_curves, &spur, q).ok_or_else(|| format!("too few pairs with {}", q.key()))?;
-        quantities.push(laws);
+    for alike in ALIKE {
+        let laws = laws_of_alike(&pairs, &of_curves, &spur, alike);
+        quantities.extend(laws.ok_or_else(|| format!("too few pairs with {}", alike.0[0].key()))?);
     }
     Ok(Calibration { pairs: pairs.len(), made_of, coverage: COVERAGE, quantities })
 }
@@ -46,6 +46,20 @@ fn meshes() -> Vec<CalibratedMesh> {
     RUNGS.into_iter().map(CalibratedMesh::Rung).chain([CalibratedMesh::Default]).collect()
 }
 
+/// Quantities whose errors go alike with what is known of a pair, and whether something is known of the errors themselves:
+/// of the deflection that elements are too stiff.
+const ALIKE: [(&[Quantity], Known); 6] = [
+    (&[Quantity::MeanSte, Quantity::MeshStiffness, Quantity::MeshStiffnessTangent], Known::Features),
+    (
+        &[Quantity::PeakToPeakSte, Quantity::FirstSteHarmonic, Quantity::SecondSteHarmonic, Quantity::ThirdSteHarmonic],
+        Known::Nothing,
+    ),
+    (&[Quantity::MaxPairForce], Known::Nothing),
+    (&[Quantity::MaxPressure], Known::Nothing),
+    (&[Quantity::PinionRootStress, Quantity::WheelRootStress], Known::Nothing),
+    (&[Quantity::ContactLineLength], Known::Nothing),
+];
+
 /// A law of one cause: its cases and what is made of them.
 struct Cause {
     cases: Vec<PairCase>,
@@ -53,8 +67,10 @@ struct Cause {
 }
 
 impl Cause {
-    fn new(cases: Vec<PairCase>, known: Known) -> Self {
-        Self { fitted: fit(&cases, known), cases }
+    /// Causes whose laws have spreads that go alike.
+    fn alike(sets: Vec<Vec<PairCase>>, known: Known) -> Vec<Self> {
+        let fitted = fit(&sets, known);
+        sets.into_iter().zip(fitted).map(|(cases, fitted)| Self { cases, fitted }).collect()
     }
 
     /// Error of a case, and what the law of the others says of it: known part and bound.
@@ -64,55 +80,77 @@ impl Cause {
     }
 }
 
-/// A case of a quantity: what was seen, and the error.
-fn case(q: Quantity, (features, sample): (Features, &Sample), seen: Option<Seen>, error: f64) -> Option<PairCase> {
-    let own = sample.get(q)?;
-    Some(PairCase { features, seen: seen.unwrap_or_else(|| Seen::number(own)), error, scale: sample.scale(q)? })
-}
-
+/// Cases of a quantity on a mesh; `None` where a pair has none.
 fn on_mesh(
     pairs: &[&MeasuredPair],
     q: Quantity,
     mesh: CalibratedMesh,
     error: impl Fn(&MeasuredPair) -> Option<f64>,
-) -> Option<Cause> {
-    let of = |pair: &&MeasuredPair| case(q, (pair.features(mesh)?, &pair.sample(mesh)?), None, error(pair)?);
-    let cases: Vec<PairCase> = pairs.iter().filter_map(of).collect();
-    (cases.len() == pairs.len()).then(|| Cause::new(cases, Known::Features))
+) -> Option<Vec<PairCase>> {
+    let of = |(number, pair): (usize, &&MeasuredPair)| {
+        let (features, sample) = (pair.features(mesh)?, pair.sample(mesh)?);
+        let seen = pair.number(q, sample.get(q)?);
+        Some(PairCase { pair: number, features, seen, error: error(pair)?, scale: sample.scale(q)? })
+    };
+    pairs.iter().enumerate().map(of).collect()
 }
 
-fn at_positions(pair: &MeasuredPair, q: Quantity, n: u32) -> Option<PairCase> {
-    let run = (pair.features_of_positions(n)?, &pair.of_positions(n)?);
-    case(q, run, Some(pair.seen(n, q)?), pair.positions_error(n, q)?)
+fn at_positions((number, pair): (usize, &MeasuredPair), q: Quantity, n: u32) -> Option<PairCase> {
+    let (features, seen) = (pair.features_of_positions(n)?, pair.seen(n, q)?);
+    let (error, scale) = (pair.positions_error(n, q)?, pair.of_positions(n)?.scale(q)?);
+    Some(PairCase { pair: number, features, seen, error, scale })
 }
 
-fn laws(
+/// Laws of quantities whose errors go alike; `None` where too few pairs have them.
+fn laws_of_alike(
     pairs: &[&MeasuredPair],
     of_curves: &[&MeasuredPair],
     spur: &[MeasuredPair],
-    q: Quantity,
-) -> Option<QuantityLaws> {
-    let whole = |pair: &&MeasuredPair| pair.exact(q).is_some() && pair.slices_error(q).is_some();
-    let pairs: Vec<&MeasuredPair> = pairs.iter().copied().filter(whole).collect();
+    (quantities, known): (&[Quantity], Known),
+) -> Option<Vec<QuantityLaws>> {
+    let whole = |pair: &&MeasuredPair, q: Quantity| pair.exact(q).is_some() && pair.slices_error(q).is_some();
+    let pairs: Vec<&MeasuredPair> =
+        pairs.iter().copied().filter(|pair| quantities.iter().all(|q| whole(pair, *q))).collect();
     if pairs.len() < LEAST_PAIRS {
         return None;
     }
     let coarsest = CalibratedMesh::Rung(RUNGS[0]);
-    let slices = on_mesh(&pairs, q, coarsest, |p| p.slices_error(q))?;
-    let of_mesh = |mesh| Some((mesh, on_mesh(&pairs, q, mesh, |p| p.mesh_error(mesh, q))?));
-    let mesh: Vec<(CalibratedMesh, Cause)> = meshes().into_iter().map(of_mesh).collect::<Option<_>>()?;
+    let of_slices = |q: &Quantity| on_mesh(&pairs, *q, coarsest, |p| p.slices_error(*q));
+    let slices = quantities.iter().map(of_slices).collect::<Option<Vec<_>>>()?;
+    let meshes = meshes();
+    let of_mesh = |(q, mesh): (Quantity, CalibratedMesh)| on_mesh(&pairs, q, mesh, |p| p.mesh_error(mesh, q));
+    let on_meshes = quantities.iter().flat_map(|q| meshes.iter().map(|mesh| (*q, *mesh)));
+    let on_meshes = on_meshes.map(of_mesh).collect::<Option<Vec<_>>>()?;
+    let mut on_meshes = Cause::alike(on_meshes, known).into_iter();
+    let each = quantities.iter().zip(Cause::alike(slices, known));
+    each.map(|(q, slices)| {
+        let mesh = meshes.iter().copied().zip(on_meshes.by_ref().take(meshes.len())).collect();
+        laws((&pairs, of_curves, spur), *q, mesh, slices)
+    })
+    .collect()
+}
+
+/// Pairs on meshes, pairs with curves, spur pairs.
+type Pairs<'a> = (&'a [&'a MeasuredPair], &'a [&'a MeasuredPair], &'a [MeasuredPair]);
+
+fn laws(
+    (pairs, of_curves, spur): Pairs<'_>,
+    q: Quantity,
+    mesh: Vec<(CalibratedMesh, Cause)>,
+    slices: Cause,
+) -> Option<QuantityLaws> {
     // Those on meshes come first: their cases have the same numbers in all laws.
     let others =
         of_curves.iter().copied().filter(|pair| pairs.iter().all(|p| (p.seed, p.index) != (pair.seed, pair.index)));
     let with_curves: Vec<&MeasuredPair> = pairs.iter().copied().chain(others).collect();
     let of_positions = |n: u32| {
-        let cases: Vec<Option<PairCase>> = with_curves.iter().map(|pair| at_positions(pair, q, n)).collect();
-        if cases[..pairs.len()].iter().any(Option::is_none) {
-            return None;
-        }
-        Some((n, Cause::new(cases.into_iter().flatten().collect(), Known::Shape)))
+        let cases: Vec<Option<PairCase>> =
+            with_curves.iter().enumerate().map(|(i, pair)| at_positions((i, pair), q, n)).collect();
+        let are_whole = cases[..pairs.len()].iter().all(Option::is_some);
+        are_whole.then(|| cases.into_iter().flatten().collect())
     };
-    let positions: Vec<(u32, Cause)> = OF_POSITIONS.into_iter().map(of_positions).collect::<Option<_>>()?;
+    let sets = OF_POSITIONS.into_iter().map(of_positions).collect::<Option<Vec<_>>>()?;
+    let positions: Vec<(u32, Cause)> = OF_POSITIONS.into_iter().zip(Cause::alike(sets, Known::Shape)).collect();
     // All causes together hold for more pairs than each by itself.
     let mut ratios = Vec::new();
     let mut sharp = Vec::new();
@@ -120,7 +158,8 @@ fn laws(
         for (_, p) in &positions {
             for i in 0..pairs.len() {
                 let all = [m, &slices, p].map(|c| c.held_out(i));
-                let [error, known, within] = [0, 1, 2].map(|k| all.iter().map(|c| c[k]).sum::<f64>());
+                let [error, known] = [0, 1].map(|k| all.iter().map(|c| c[k]).sum::<f64>());
+                let within = together(&all.map(|[_, _, within]| within));
                 ratios.push((error - known).abs() / within);
                 sharp.push([error.abs(), known.abs(), within, m.cases[i].scale]);
             }
@@ -134,7 +173,7 @@ fn laws(
         pairs.len(),
         100.0 * shown(&|[e, _, _, s]| e / s),
         100.0 * shown(&|[_, _, w, s]| joint * w / s),
-        shown(&|[e, k, w, s]| (k + joint * w) / e.max(1e-9 * s)),
+        shown(&|[e, k, w, s]| (k + joint * w) / e.max(LEAST_ERROR * s)),
     );
     let scaled = |c: &Cause| PairLaw { factor: joint * c.fitted.law.factor, ..c.fitted.law.clone() };
     let usual = |c: &Cause| {
@@ -179,7 +218,7 @@ fn laws(
 /// How many times the bound of a law holds for the share of the spur pairs, none of which it was made of.
 fn spur_factor(pairs: &[MeasuredPair], q: Quantity, (positions, law): (u32, &PairLaw)) -> f64 {
     let ratio = |pair: &MeasuredPair| {
-        let case = at_positions(pair, q, positions)?;
+        let case = at_positions((0, pair), q, positions)?;
         let [known, within] = law.of(&case.features, &case.seen, case.scale);
         Some((case.error - known).abs() / within)
     };

@@ -2,17 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use analysis::accuracy::{CalibratedMesh, Calibration, Quantity, Seen};
+use analysis::accuracy::Quantity;
 use verification::{
     held_out::held_out,
-    measured_pair::{MeasuredPair, RUNGS},
+    measured_pair::MeasuredPair,
+    pair_bounds::{PairBound, pair_bounds},
     pairs_done::lines,
 };
 
 use super::{Failure, median};
 
-/// Numbers of positions.
-const OF_POSITIONS: [u32; 3] = [8, 16, 32];
+/// The row of all quantities together.
+const ALL: &str = "all";
 
 /// Bounds of a quantity in a stratum of pairs.
 #[derive(Debug, Default)]
@@ -24,10 +25,10 @@ struct Stratum {
 }
 
 impl Stratum {
-    fn add(&mut self, [error, known, within]: [f64; 3], scale: f64) {
+    fn add(&mut self, bound: PairBound) {
         self.bounds += 1;
-        self.within += usize::from((error - known).abs() <= within);
-        self.sharpness.push((known.abs() + within) / error.abs().max(1e-9 * scale.abs()));
+        self.within += usize::from(bound.holds());
+        self.sharpness.push(bound.sharpness());
     }
 
     fn cell(&mut self) -> String {
@@ -46,9 +47,9 @@ pub(super) fn check(files: &[String]) -> Result<(), Failure> {
     let mut tables = BTreeMap::<&str, BTreeMap<&str, Stratum>>::new();
     for pair in &pairs {
         for q in Quantity::ALL.iter().copied().filter(|q| !q.is_of_motion()) {
-            for bound in bounds(pair, q).into_iter().flatten() {
-                for stratum in strata(pair) {
-                    tables.entry(q.key()).or_default().entry(stratum).or_default().add(bound.0, bound.1);
+            for bound in pair_bounds(pair, q) {
+                for (row, stratum) in [q.key(), ALL].into_iter().flat_map(|row| strata(pair).map(|s| (row, s))) {
+                    tables.entry(row).or_default().entry(stratum).or_default().add(bound);
                 }
             }
         }
@@ -62,39 +63,22 @@ pub(super) fn check(files: &[String]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Error, known part and bound of a number on every mesh with every number of positions, and its scale.
-fn bounds(pair: &MeasuredPair, q: Quantity) -> Vec<Option<([f64; 3], f64)>> {
-    let meshes = RUNGS.into_iter().map(CalibratedMesh::Rung).chain([CalibratedMesh::Default]);
-    let all = meshes.flat_map(|mesh| OF_POSITIONS.map(|positions| (mesh, positions)));
-    all.map(|(mesh, positions)| {
-        let laws = Calibration::committed().of(q)?;
-        let (sample, features) = (pair.sample(mesh)?, pair.features(mesh)?);
-        let (own, scale) = (sample.get(q)?, sample.scale(q)?);
-        let of_mesh = laws.of_mesh(mesh)?.law.of(&features, &Seen::number(own), scale);
-        let of_slices = laws.slices.of(&features, &Seen::number(own), scale);
-        let at = pair.of_positions(positions)?;
-        let seen = pair.seen(positions, q)?;
-        let of_positions =
-            laws.of_positions(positions)?.of(&pair.features_of_positions(positions)?, &seen, at.scale(q)?);
-        let error = pair.mesh_error(mesh, q)? + pair.slices_error(q)? + pair.positions_error(positions, q)?;
-        let [known, within] = [0, 1].map(|k| of_mesh[k] + of_slices[k] + of_positions[k]);
-        Some(([error, known, within], scale))
-    })
-    .collect()
-}
-
 /// Strata that a pair belongs to.
-fn strata(pair: &MeasuredPair) -> Vec<&'static str> {
+fn strata(pair: &MeasuredPair) -> [&'static str; 7] {
     let scene = &pair.scene;
     let modules = scene.pair.face_width_mm / scene.pair.normal_module_mm;
     let modified = scene.gears().iter().any(|g| !g.modification.drive.is_none());
-    vec![
+    [
         "all",
         if scene.pinion.helix_angle_deg == 0.0 { "spur" } else { "helical" },
         if pair.contact_ratio() < 2.0 { "contact ratio below 2" } else { "contact ratio from 2 on" },
         if modules < 8.0 { "width below 8 m_n" } else { "width from 8 m_n on" },
         if modified { "flanks modified" } else { "flanks as generated" },
         if scene.pair.misalignment.is_none() { "aligned" } else { "misaligned" },
-        if pair.pressure_mpa() < 1000.0 { "below 1000 MPa" } else { "from 1000 MPa on" },
+        match pair.pressure_mpa() {
+            p if p < 500.0 => "below 500 MPa",
+            p if p < 1000.0 => "500 to 1000 MPa",
+            _ => "from 1000 MPa on",
+        },
     ]
 }

@@ -11,6 +11,7 @@ mod rest;
 use std::collections::BTreeMap;
 
 use analysis::accuracy::Bound;
+use verification::measured_pair::LEAST_ERROR;
 
 use super::Failure;
 
@@ -35,7 +36,7 @@ impl Tally {
         let within = -bound.below <= error && error <= bound.above;
         self.pairs += 1;
         self.within += usize::from(within);
-        self.sharpness.push(bound.largest() / error.abs().max(1e-9 * exact.abs()));
+        self.sharpness.push(bound.largest() / error.abs().max(LEAST_ERROR * exact.abs()));
         let (said, is_kept) = (bound.met == Some(true), bound.asked.is_some_and(|asked| error.abs() <= asked));
         self.met[0] += usize::from(said);
         self.met[1] += usize::from(is_kept);
