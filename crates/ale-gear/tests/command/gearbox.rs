@@ -151,7 +151,11 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     let [short, fast] = ["motion.cycles=12", "motion.to_speed_rpm=3000"];
     let run = scratch.ale_gear(["run", "run_up.toml", "--set", short, "--set", fast, "--out", "s"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stdout.contains("the speed changes within 0.0") && run.stdout.contains("that takes up to"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("the speed changes within 0.0") && run.stdout.contains("that takes up to"),
+        "{}",
+        run.stdout
+    );
     let page = scratch.read("o/report.html");
     assert!(page.contains("Mesh orders in the transmission error"));
     for what in ["the DTE of mesh first", "the normal force of mesh second", "the force of bearing"] {
