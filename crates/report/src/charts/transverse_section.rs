@@ -301,10 +301,11 @@ mod tests {
     /// flank, of external and internal pairs; every number of the drawing is one.
     #[test]
     fn the_path_of_contact_lies_between_the_tip_circles() {
-        for wheel in [41, -63] {
+        for (wheel, shift) in [(41, 0.0), (-52, -0.1)] {
             let text = format!(
-                "[pinion]\nteeth = 23\nhelix_angle_deg = 15.0\n[wheel]\nteeth = {wheel}\n[pair]\nnormal_module_mm = 2.0\n\
-                 face_width_mm = 20.0\n[operation]\ntorque_nm = 100.0\n"
+                "[pinion]\nteeth = 20\nhelix_angle_deg = 15.0\nprofile_shift = 0.3\n[wheel]\nteeth = {wheel}\n\
+                 profile_shift = {shift}\n[pair]\nnormal_module_mm = 3.0\nface_width_mm = 20.0\n\
+                 addendum_coefficient = 0.85\n[operation]\ntorque_nm = 100.0\n"
             );
             let scene = Scene::parse(&text, Path::new("pair.toml")).unwrap_or_else(|e| panic!("{e}"));
             let pair = scene.gear_pair().unwrap_or_else(|e| panic!("{e}"));
