@@ -7,7 +7,7 @@ use super::*;
 fn changed_speed_and_open_work_are_told() {
     assert_eq!([speed_changed(1009.0, 1000.0), work_open(-9e-7)], [None, None]);
     let told = speed_changed(985.0, 1000.0).unwrap().to_string();
-    assert!(told.contains("985.0/min") && told.contains("1000.0/min"), "{told}");
+    assert!(told.contains("985.0 rpm") && told.contains("1000.0 rpm"), "{told}");
     assert!(work_open(-2e-6).is_some() && speed_changed(f64::NAN, 1000.0).is_none());
 }
 
