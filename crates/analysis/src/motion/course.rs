@@ -24,13 +24,10 @@ const TOLERANCE: f64 = 1e-6;
 /// Share of a mesh cycle that is none: round-off of the angle turned.
 const NO_CYCLE: f64 = 1e-9;
 
-/// Mesh cycles of a ramp with what is before and after it: until its last speed is reached, or the last whole one of a
-/// motion that stops.
+/// Mesh cycles of a ramp with what is before and after it: until its last speed is reached.
 pub(super) fn ramp_cycles(ramp: RampScene, pair: &PairModel) -> u64 {
     let turned = pair.cycles_until(ramp.before_s + ramp.duration_s + ramp.after_s);
-    let all = (turned - NO_CYCLE).ceil().max(1.0);
-    let is_reached = pair.time_of_cycles(all).is_some();
-    (if is_reached { all } else { (turned + NO_CYCLE).floor().max(1.0) }) as u64
+    (turned - NO_CYCLE).ceil().max(1.0) as u64
 }
 
 /// What a scene asks of its motion.
