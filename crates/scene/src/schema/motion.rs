@@ -191,7 +191,7 @@ table! {
     /// `[motion.ramp]`
     RAMP, RawRamp => RampScene Copy: "run-up or run-down: the driver's speed changes by the smooth step 3 x^2 - 2 x^3", needed ["from_rpm", "to_rpm", "duration_s"]; {
         from_rpm: must(0.0, 1e7), "speed at first, 1/min; 0: from rest";
-        to_rpm: must(1e-3, 1e7), "speed in the end, 1/min; reached within whole mesh cycles, of which the last is begun before";
+        to_rpm: must(1e-3, 1e7), "speed in the end, 1/min; the motion ends with the mesh cycle in which it is reached";
         duration_s: must(1e-6, 1e6), "how long the change takes, s";
         before_s: number(0.0, 1e6, 0.0), "time at the first speed before, s";
         after_s: number(0.0, 1e6, 0.0), "time at the last speed afterwards, s";
