@@ -78,7 +78,6 @@ fn a_seat_may_be_beside_the_gear() {
     assert!(error.to_string().contains("0 .. 155"), "{error}");
 }
 
-/// A motion that settles has its tolerance and its wait; what has no period, or rows beside the ends of cycles, is refused,
 /// A duration is whole cycles of the fastest mesh: 17 a turn of the input; a run-up has the mean of both speeds.
 #[test]
 fn a_motion_lasts_as_long_as_it_says() {
@@ -101,6 +100,7 @@ fn a_motion_lasts_as_long_as_it_says() {
     assert!(long.to_string().contains("cycles of the fastest mesh"), "{long}");
 }
 
+/// A motion that settles has its tolerance and its wait; what has no period, or rows beside the ends of cycles, is refused,
 /// and so are words that a motion from rest on has no use for.
 #[test]
 fn a_motion_settles_where_it_can() {
