@@ -23,8 +23,8 @@ const LAST_BITS: f64 = 256.0;
 const ONE_DIGIT: f64 = 10.0;
 
 impl GearboxMechanism {
-    /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly and its loads change; and
-    /// modal damping about it from now on.
+    /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly and its loads change, its
+    /// acceleration held; and modal damping about it from now on.
     ///
     /// ```text
     /// C += M Phi diag(2 zeta omega) Phi' M,   (K - df_mesh/dz) Phi = M Phi omega^2
@@ -41,10 +41,11 @@ impl GearboxMechanism {
     /// As of [`Self::start`].
     pub fn start_at(&mut self, time: f64, modal_damping: f64) -> Result<State, GearboxError> {
         let [angle, speed] = self.nominal_turn(time);
-        let z = self.standing((angle, time), None)?;
+        let acceleration = self.acceleration(time);
+        let z = self.standing((angle, time, acceleration), None)?;
         // Teeth near places that were looked at before are known less well: the search ends from its own end on.
         self.forget();
-        let z = self.standing((angle, time), Some(&z))?;
+        let z = self.standing((angle, time, acceleration), Some(&z))?;
         if modal_damping > 0.0 {
             let (rigid, [k, mass]) = self.with_static_gears(&z)?;
             let modes = natural_modes(&k, &mass)?;
@@ -65,8 +66,9 @@ impl GearboxMechanism {
         let mut v = DVector::zeros(z.len());
         if speed != 0.0 {
             let way = SPAN / fastest;
-            let after = self.standing((angle + way, time + way / speed), Some(&z))?;
-            let before = self.standing((angle - way, time - way / speed), Some(&z))?;
+            // A change of speed that begins here has moved nothing yet: its acceleration is that of this time.
+            let after = self.standing((angle + way, time + way / speed, acceleration), Some(&z))?;
+            let before = self.standing((angle - way, time - way / speed, acceleration), Some(&z))?;
             v = (after - before) * (speed / (2.0 * way));
         }
         if let Some(i) = self.free.turn.filter(|_| !self.beside_nominal) {
@@ -132,14 +134,14 @@ impl GearboxMechanism {
         from: Option<&DVector<f64>>,
     ) -> Result<DVector<f64>, GearboxError> {
         let angle = cycles / self.live[mesh].cycles_per_turn;
-        self.standing((angle, time), from)
+        self.standing((angle, time, self.acceleration(time)), from)
     }
 
-    /// Equilibrium with the input turned by an angle (rad about +z), under the loads and the acceleration of a time (s); the
-    /// turn itself is left at 0.
+    /// Equilibrium with the input turned by an angle (rad about +z), under the loads of a time (s) and an acceleration of the
+    /// input (rad/s^2 about +z); the turn itself is left at 0.
     fn standing(
         &mut self,
-        (angle, time): (f64, f64),
+        (angle, time, acceleration): (f64, f64, f64),
         from: Option<&DVector<f64>>,
     ) -> Result<DVector<f64>, GearboxError> {
         // The turn of the whole train comes last, if it is one.
@@ -151,7 +153,7 @@ impl GearboxMechanism {
         // What a torque gives to the turn itself is left out.
         let mut load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
         self.varying.forces(time).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
-        let accelerating = self.of_acceleration(self.acceleration(time));
+        let accelerating = self.of_acceleration(acceleration);
         accelerating.into_iter().flatten().for_each(|(size, along)| load.axpy(size, &along.rows(0, n), 1.0));
         let push = self.push.rows(0, n).into_owned();
         let balances = matches!(self.drive, Drive::Balanced(_));

@@ -358,3 +358,21 @@ fn a_short_change_of_speed_is_not_stepped_over() {
     });
     assert!(blow > 1.2 * still, "a blow of {blow} mm beside {still} mm: the law says nothing");
 }
+
+/// A change of speed that begins with the motion is that which begins later: no rate of the start foresees it.
+#[test]
+fn a_change_at_the_start_is_a_change_later() {
+    let cycle = TAU / 100.0 / 17.0;
+    for share in [1e-3, 0.3, 2.0] {
+        let [first, later] = [0.0, 4.0].map(|wait| {
+            let ramp = Speed::Ramp { from: 100.0, to: 103.0, start: wait * cycle, duration: share * cycle };
+            let change = |plan: &mut MotionPlan| (plan.steps_per_cycle, plan.steps_per_row) = (64, 1);
+            let (rows, _) = run(Drive::Speed(ramp), change, 7);
+            let all = errors(&rows)[wait as usize * 64..].iter().map(|mesh| mesh[0]).collect::<Vec<_>>();
+            all.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(*x), h.max(*x)])
+        });
+        let [first, later] = [first, later].map(|[l, h]| h - l);
+        println!("{share} of a cycle: {:.3}, {:.3} um", 1e3 * first, 1e3 * later);
+        assert!((first / later - 1.0).abs() < 0.05, "{share} of a cycle: {first} at the start, {later} mm later");
+    }
+}
