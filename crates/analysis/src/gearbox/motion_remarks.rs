@@ -11,7 +11,7 @@ use super::{at_rest::AtRest, moved::GearboxMotionResult, swings::few_modes};
 use crate::{
     in_motion::{
         MeshInMotion, MeshRecord, Parting, Resolved, Settled, StepKeys, coarse_steps, no_backlash, speed_changed,
-        work_open,
+        steps_of_cycle, work_open,
     },
     motion::{Elasticity, Pace, StepDemand, Vibration},
     remark,
@@ -144,11 +144,8 @@ impl Judged<'_> {
         // A slower mesh has as many more of them in its cycle.
         let fastest = moved.mesh_frequencies.iter().fold(0.0, |most: f64, hz| most.max(hz.abs()));
         let of_mean = |steps: f64| steps * fastest / moved.mesh_frequencies[i].abs();
-        let per_period = match asked.error_tolerance {
-            Some(_) => moved.steps_per_cycle.map(of_mean),
-            None => Some(per_cycle * f64::from(asked.steps_per_row)),
-        };
-        let steps = per_period.map(|per_period| SteadySteps {
+        let (equal, mean) = (per_cycle * f64::from(asked.steps_per_row), moved.steps_per_cycle.map(of_mean));
+        let steps = steps_of_cycle(asked.scheme, asked.error_tolerance, (equal, mean)).map(|per_period| SteadySteps {
             per_period,
             scheme: asked.scheme,
             resonance: resonance.hz / moved.mesh_frequencies[i],

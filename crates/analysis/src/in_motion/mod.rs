@@ -20,4 +20,4 @@ pub use checks::{
 pub use flanks::FlankCertificate;
 pub(crate) use flanks::{BothFlanks, MeshInMotion, NO_BACKLASH_UM, Parting, no_backlash};
 pub(crate) use machine::{Settled, speed_changed, work_open};
-pub(crate) use resolved::{MeshRecord, Resolved, StepKeys, coarse_steps};
+pub(crate) use resolved::{MeshRecord, Resolved, StepKeys, coarse_steps, steps_of_cycle};

@@ -26,7 +26,7 @@ use crate::{
     error::in_scene,
     facts::{Resolution, RunInfo},
     gears,
-    in_motion::{self, MeshRecord, StepKeys, coarse_steps},
+    in_motion::{self, MeshRecord, StepKeys, coarse_steps, steps_of_cycle},
     inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
     options, plausible,
@@ -254,7 +254,7 @@ fn result(
     if motion.ramp.is_none() {
         let (samples, cycles) = (&judged.dte_um[..], run.judged as f64);
         let comes_back = whole == Window::Rectangular;
-        let steps = run.steps_per_cycle.and_then(|own| time_steps((scene, motion), frequencies, own));
+        let steps = time_steps((scene, motion), frequencies, run.steps_per_cycle);
         let resolved =
             MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }
                 .resolved();
@@ -271,21 +271,20 @@ fn result(
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
 }
 
-/// Steps of a motion at constant speed that takes so many in a mesh cycle on average; `None` of a ramp, and of a mesh
-/// without one stiffness.
+/// Steps of a motion at constant speed, `mean` of them in a mesh cycle on average; `None` of a ramp, of a mesh without one
+/// stiffness, and where they do not tell their error.
 fn time_steps(
     (scene, motion): (&Scene, &MotionScene),
     frequencies: MeshFrequencies,
-    per_cycle: f64,
+    mean: Option<f64>,
 ) -> Option<SteadySteps> {
     let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
     let is_known = motion.ramp.is_none() && resonance_hz > 0.0;
     let damping = scene.lumped12.as_ref().map(|own| own.damping_ratio).or(motion.mesh_damping_ratio);
-    is_known.then(|| SteadySteps {
-        per_period: match motion.error_tolerance {
-            Some(_) => per_cycle,
-            None => 1.0 / (frequencies.step(motion) * mesh_hz),
-        },
+    let equal = 1.0 / (frequencies.step(motion) * mesh_hz);
+    let per_period = steps_of_cycle(motion.scheme(), motion.error_tolerance, (equal, mean)).filter(|_| is_known)?;
+    Some(SteadySteps {
+        per_period,
         scheme: motion.scheme(),
         resonance: resonance_hz / mesh_hz,
         damping: damping.unwrap_or(USUAL_DAMPING),

@@ -105,7 +105,7 @@ described::described! {
         pub warm_up_cycles: u64,
         /// rows in which the flanks are apart
         pub rows_without_contact: usize,
-        /// about how much of itself steps change the peak to peak of the DTE by: an estimate from its harmonics beside the mesh resonance, where steps follow an error for their mean length ([theory](theory.md), equation 66a); `null` of a ramp, and of `impact`, whose mesh has no one stiffness
+        /// about how much of itself steps change the peak to peak of the DTE by: an estimate from its harmonics beside the mesh resonance, where steps follow an error for their mean length ([theory](theory.md), equation 66a); `null` of a ramp, where an explicit method follows an error, and of `impact`, whose mesh has no one stiffness
         pub step_error_percent: Option<f64>,
         /// steps that were taken
         pub steps: u64,

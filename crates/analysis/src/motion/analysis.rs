@@ -26,7 +26,7 @@ use crate::{
     error::{in_scene, unasked},
     facts::RunInfo,
     failure::Failure,
-    in_motion::{MeshRecord, StepKeys},
+    in_motion::{MeshRecord, StepKeys, steps_of_cycle},
     inputs::resolved_scene,
     refused::Refusal,
     results::{GearPattern, root_stress_remarks},
@@ -281,8 +281,8 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         Some(_) => None,
         None => Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?),
     };
-    let per_cycle = done.motion.steps_per_cycle();
-    let steps = per_cycle.and_then(|steps| time_steps((motion, steps), &prepared, headline.mesh_frequency_hz));
+    let mean = done.motion.steps_per_cycle();
+    let steps = time_steps((motion, mean), &prepared, headline.mesh_frequency_hz);
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
@@ -305,22 +305,17 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
 }
 
-/// Steps of a motion at constant speed that takes so many in a mesh cycle on average; `None` of a ramp.
+/// Steps of a motion at constant speed, `mean` of them in a mesh cycle on average; `None` of a ramp, and where they do not
+/// tell their error.
 fn time_steps(
-    (motion, per_cycle): (&MotionScene, f64),
+    (motion, mean): (&MotionScene, Option<f64>),
     prepared: &PreparedMotion,
     mesh_hz: f64,
 ) -> Option<SteadySteps> {
-    let resonance = prepared.system.mesh_resonance();
-    motion.ramp.is_none().then(|| SteadySteps {
-        per_period: match motion.error_tolerance {
-            Some(_) => per_cycle,
-            None => 1.0 / (prepared.times.step(1.0 / mesh_hz) * mesh_hz),
-        },
-        scheme: prepared.times.scheme,
-        resonance: resonance.hz / mesh_hz,
-        damping: resonance.damping,
-    })
+    let (resonance, scheme) = (prepared.system.mesh_resonance(), prepared.times.scheme);
+    let equal = 1.0 / (prepared.times.step(1.0 / mesh_hz) * mesh_hz);
+    let per_period = steps_of_cycle(scheme, motion.error_tolerance, (equal, mean)).filter(|_| motion.ramp.is_none())?;
+    Some(SteadySteps { per_period, scheme, resonance: resonance.hz / mesh_hz, damping: resonance.damping })
 }
 
 /// Remark on the torque at the driven gear that the ramp of a scene takes.

@@ -143,7 +143,7 @@ described::described! {
         /// what its flanks do
         #[serde(flatten)]
         pub flanks: FlankCertificate,
-        /// about how much of itself steps change the peak to peak of the DTE by: an estimate from its harmonics beside the mesh resonance, where steps follow an error for their mean length ([theory](theory.md), equation 66a); `null` of a ramp
+        /// about how much of itself steps change the peak to peak of the DTE by: an estimate from its harmonics beside the mesh resonance, where steps follow an error for their mean length ([theory](theory.md), equation 66a); `null` of a ramp, and where an explicit method follows an error
         pub step_error_percent: Option<f64>,
         /// steps that were taken
         pub steps: u64,

@@ -60,7 +60,7 @@ pub(super) fn endless(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Fa
         return Ok(());
     }
     let what = format!("a mesh cycle of the ramp lasts {longest:.3e} s, which are {steps:.1e} steps");
-    let hint = format!("{ENDLESS:.0e} are the most: let it begin and end faster");
+    let hint = format!("{ENDLESS:.0e} are the most: let it begin and end faster, or take an `error_tolerance`");
     let refusal = Refusal::no_result(what, Some(hint));
     Err(AnalysisError::from(refusal).at(place_in(scene, &["motion.ramp"])).into())
 }

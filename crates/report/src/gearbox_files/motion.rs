@@ -76,7 +76,7 @@ described::described! {
         max_coast_normal_force_n: f64,
         /// natural frequency of both gears turning against each other on the mean stiffness; 0 where neither can
         mesh_resonance_hz: f64,
-        /// about how much of itself steps change the peak to peak of the DTE by: an estimate from its mesh orders beside the mesh resonance, where steps follow an error for their mean length ([theory](theory.md), equation 66a); `null` of a run-up, and of rows too few to tell orders
+        /// about how much of itself steps change the peak to peak of the DTE by: an estimate from its mesh orders beside the mesh resonance, where steps follow an error for their mean length ([theory](theory.md), equation 66a); `null` of a run-up, where an explicit method follows an error, and of rows too few to tell orders
         step_error_percent: Option<f64>,
         /// elastic frequencies of the gears beside the mesh harmonics
         elasticity: &'a ElasticHeadline,

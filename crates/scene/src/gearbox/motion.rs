@@ -4,6 +4,7 @@ use integrate::Scheme;
 use toml::Spanned;
 
 use super::{
+    mesh_cycles::whole_cycles,
     schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawContinuation, RawMotion},
     values::{Checked, given, needed_of, row},
 };
@@ -267,8 +268,7 @@ fn cycles(s: &Source<'_>, raw: &RawMotion, mesh_hz: f64) -> Checked<u32> {
         let said = "`duration_s` and `cycles` both say how long the motion is";
         return Err(s.conflict(&own.span(), said, "leave one of both out"));
     }
-    // Digits of a duration are no further cycle.
-    let cycles = (duration * mesh_hz * (1.0 - 1e-9)).ceil().max(1.0);
+    let cycles = whole_cycles(duration, mesh_hz);
     if cycles > MOST_CYCLES {
         let said = format!("{duration} s are {cycles:.0} cycles of the fastest mesh");
         return Err(s.conflict(&at, said, format!("{MOST_CYCLES:.0} at the most: take a shorter one")));

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::mesh_cycles::whole_cycles;
 use super::of_pair::{Beside, LIGHT, NO_MASS, moving, two_shafts};
 use crate::{
     Axis, BearingScene, Driver, GearScene, Model, MotionScene, RampScene, Run, Scene, SceneError, TorqueScene,
@@ -158,7 +159,7 @@ fn over_cycles(plain: &mut Scene, ramp: RampScene, left: &mut Vec<String>) -> St
     let RampScene { from_rpm, to_rpm, duration_s, before_s, after_s, .. } = ramp;
     // The mean speed of the smooth step is that of both ends.
     let mesh_hz = f64::from(plain.driver_teeth()) * 0.5 * (from_rpm + to_rpm) / 60.0;
-    let cycles = (duration_s * mesh_hz * (1.0 - 1e-9)).ceil().clamp(1.0, f64::from(u32::MAX));
+    let cycles = whole_cycles(duration_s, mesh_hz);
     plain.operation.speed_rpm = from_rpm;
     plain.analysis.cycles = cycles as u32;
     let lasts = cycles / mesh_hz;
