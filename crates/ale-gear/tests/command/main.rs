@@ -6,6 +6,7 @@ mod faults;
 mod folders;
 mod gearbox;
 mod gearbox_loads;
+mod gearbox_over_speed;
 mod gearbox_pitch_errors;
 mod gearbox_planets;
 mod gearbox_resume;
