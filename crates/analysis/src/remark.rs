@@ -263,6 +263,9 @@ answer::remarks! {
         "`young_mpa` of the shaft \"{shaft}\" is {young_mpa}, {than}", "{other}";
     unlikely_shaft_density(shaft, density_kg_m3, other)
         "`density_kg_m3` of the shaft \"{shaft}\" is {density_kg_m3}, which no metal has", "{other}";
+    bore_beside_shaft(bearing, bore_mm, shaft, shaft_diameter_mm)
+        "the bore of the {bearing} is {bore_mm} mm, and the shaft \"{shaft}\" has {shaft_diameter_mm} mm there",
+        "take a bearing of that bore, or state the section on which it sits";
     unlikely_bearing_stiffness(bearing, stiffness_n_per_mm, than, shaft_diameter_mm, other)
         "the stiffness of the {bearing} is {stiffness_n_per_mm} N/mm across the axis, {than} for a shaft of {shaft_diameter_mm} mm",
         "{other}";

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use answer::Remark;
 use scene::{
-    gearbox::{Gearbox, GearboxBearing, GearboxGear, GearboxShaft},
+    gearbox::{Gearbox, GearboxBearing, GearboxGear, GearboxShaft, RollingSize},
     units::in_another_unit,
 };
 
@@ -18,6 +18,9 @@ const STEEL: f64 = 2.06e5;
 /// Stiffness of a bearing over Young's modulus times the diameter of its shaft: a ring of rolling elements has some 0.02
 /// to 0.3, a seat of rubber 1e-3.
 const STIFFNESSES: [f64; 2] = [3e-4, 10.0];
+/// Difference of the bore of a bearing from the diameter of its shaft, over it, from which on it is told: sections of a model
+/// are seldom exact.
+const BORE: f64 = 0.1;
 /// Mass of a gear over that of a solid one of its pair's face width and tip diameter.
 const MASSES: [f64; 2] = [0.02, 20.0];
 /// Radius of gyration of a gear over its tip radius: 0.7 is a disc, 1 a rim.
@@ -33,7 +36,10 @@ pub fn gearbox_remarks(file: &Gearbox) -> Vec<Remark> {
         let density = moves.then(|| density(shaft)).flatten();
         [young(shaft), density].into_iter().flatten()
     });
-    let bearings = file.bearings.iter().filter_map(|bearing| stiffness(bearing, &file.shafts[bearing.shaft]));
+    let bearings = file.bearings.iter().flat_map(|bearing| {
+        let shaft = &file.shafts[bearing.shaft];
+        [stiffness(bearing, shaft), bore(bearing, shaft)].into_iter().flatten()
+    });
     let gears = file.gears.iter().enumerate().filter(|_| moves).flat_map(|(i, gear)| {
         let disc = disc(file, i);
         disc.into_iter().flat_map(|disc| inertias(gear, disc))
@@ -89,6 +95,17 @@ fn stiffness(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<Remark> {
         let (across, diameter) = (across, solid / STEEL);
         remark::unlikely_bearing_stiffness(bearing.name.as_str(), across, than, diameter, other)
     })
+}
+
+/// The bore of a rolling bearing beside the diameter of its shaft.
+fn bore(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<Remark> {
+    let own = match bearing.rolling.as_ref()?.size {
+        RollingSize::Catalogue { bore, .. } | RollingSize::Dimensions { bore, .. } => bore,
+        RollingSize::Elements { .. } => return None,
+    };
+    let diameter = diameter(shaft, bearing.position)?;
+    let differs = (own / diameter - 1.0).abs() > BORE;
+    differs.then(|| remark::bore_beside_shaft(bearing.name.as_str(), own, shaft.name.as_str(), diameter))
 }
 
 /// A gear as a solid disc: mass, kg, and tip radius, m.
@@ -160,10 +177,34 @@ mod tests {
 
     /// What is said of the two stages with one line otherwise.
     fn said(old: &str, new: &str) -> Vec<Remark> {
-        let file = file("two_stages.toml");
+        said_of("two_stages.toml", old, new)
+    }
+
+    fn said_of(name: &str, old: &str, new: &str) -> Vec<Remark> {
+        let file = file(name);
         let text = std::fs::read_to_string(&file).unwrap();
         assert!(text.contains(old), "{old}");
         gearbox_remarks(&Gearbox::parse(&text.replacen(old, new, 1), &file).unwrap())
+    }
+
+    /// A bearing that does not fit its shaft is told, with both diameters; a tenth of a difference is not.
+    #[test]
+    fn a_bore_that_is_not_the_shaft_is_told() {
+        let told = |bore: &str| said_of("rolling_bearings.toml", "bore_mm = 25.0", bore);
+        assert_eq!(told("bore_mm = 26.5"), Vec::<Remark>::new());
+        let told = told("bore_mm = 30.0");
+        assert!(told.len() == 1 && told[0].code() == "bore_beside_shaft", "{told:?}");
+        let words = told[0].to_string();
+        assert!(words.contains("30 mm") && words.contains("25 mm"), "{words}");
+    }
+
+    /// A shaft without mass on purpose is none in another unit.
+    #[test]
+    fn a_shaft_without_mass_is_meant() {
+        let [meant, slip, light] = ["1e-3", "7.85e-9", "50.0"]
+            .map(|density| said("density_kg_m3 = 7800.0", &format!("density_kg_m3 = {density}")));
+        assert_eq!(meant, Vec::<Remark>::new());
+        assert_eq!([slip.len(), light.len()], [1, 1], "{slip:?}, {light:?}");
     }
 
     /// A number in another unit is told with the unit that was meant; shipped gearboxes have none.
