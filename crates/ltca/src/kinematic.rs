@@ -187,17 +187,18 @@ impl<'a> Unloaded<'a> {
     fn nearest(&self, poses: &[Pose; 2], look: &Look) -> Option<(Nearest, Look)> {
         let (teeth, first) = (look.teeth(), matches!(look, Look::All(_)));
         let flanks: Vec<[FlankPatch; 2]> = teeth.iter().map(|&tooth| self.patches(tooth)).collect();
+        let mut enough = f64::INFINITY;
         let mut gaps: Vec<FlankGap<'_>> = match look {
             Look::All(_) => {
                 let unseen: Vec<FlankGap<'_>> =
                     flanks.iter().map(|flanks| FlankGap::unseen(flanks, poses, self.module())).collect();
                 let foretold: Vec<_> = unseen.iter().map(FlankGap::foretold).collect();
                 // Whatever the least gap is, it is no larger than the least that may be.
-                let enough = foretold.iter().flatten().flatten().map(|[_, high]| *high).fold(f64::INFINITY, f64::min);
+                enough = foretold.iter().flatten().flatten().map(|[_, high]| *high).fold(f64::INFINITY, f64::min);
                 // Nor than the one where the first order has it.
                 let there = unseen.iter().zip(&foretold).filter_map(|(gap, told)| gap.told_least(told));
                 let there = there.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(z, _, gap)| gap.at(z));
-                let enough = there.map_or(enough, |(_, gap)| enough.min(gap));
+                enough = there.map_or(enough, |(_, gap)| enough.min(gap));
                 unseen.into_iter().zip(&foretold).map(|(gap, told)| gap.looked(told, enough)).collect()
             }
             Look::At(places) => flanks
@@ -207,8 +208,8 @@ impl<'a> Unloaded<'a> {
                 .collect(),
         };
         let mut best = nearest_of(&mut gaps, &teeth, first);
-        if best.is_none() && first {
-            // Flanks that the first order says nothing true of: every station counts.
+        if first && best.is_none_or(|b| b.gap > enough + self.touching()) {
+            // Flanks that the first order says nothing true of, or whose gap it has too low: every station counts.
             gaps = flanks.iter().map(|flanks| FlankGap::new(flanks, poses, self.module())).collect();
             best = nearest_of(&mut gaps, &teeth, first);
         }

@@ -45,6 +45,13 @@ fn a_load_without_digits_is_refused() {
     assert_eq!(status, Some(0), "{enough} N m: {said}");
 }
 
+/// The least gap of the unloaded flanks is found where axes are tilted far for the width.
+#[test]
+fn tilted_flanks_are_seen_to_touch() {
+    let (status, said) = run(include_str!("../../data/found/tilted_short_teeth.toml"));
+    assert_eq!(status, Some(0), "{said}");
+}
+
 /// Two places on the profile of a slice have the same gap and not the same curvature: its force jumps where the nearer
 /// one changes, and the load is balanced by no pose. The pose between the two is taken, and says what it is off by.
 #[test]

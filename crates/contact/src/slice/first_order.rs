@@ -50,7 +50,7 @@ pub(super) struct FirstOrderGap {
     stride: f64,
     /// Gap of the nominal flanks at mid-face, mm.
     apart: f64,
-    /// What tilted axes may add to it or take from it at the ends of the face, mm.
+    /// What tilted axes may add to it or take from it anywhere on the flanks, mm.
     tilted: f64,
     /// Least sum of both depths, mm.
     shallowest: f64,
@@ -116,7 +116,11 @@ impl FirstOrderGap {
         let cos_base_helix = first.base_helix_angle.cos();
         let apart = cos_base_helix * (length - second.base_radius * own);
         let axes = poses.map(|pose| pose.rotation * Vec3::z());
-        let tilted = 2.0 * axes[0].cross(&axes[1]).norm() * (first.half_width + offset.abs());
+        // Their end faces rise with the radius, and helical flanks with them.
+        let tip =
+            |i: usize, flank: &Flank| flank.base_radius.abs() * 1f64.hypot(rolls[i][0].abs().max(rolls[i][1].abs()));
+        let rise = tip(0, first).max(tip(1, second)) * first.base_helix_angle.sin().abs();
+        let tilted = axes[0].cross(&axes[1]).norm() * (2.0 * (first.half_width + offset.abs()) + rise);
         let serves = stride > 0.0 && first.side == second.side && apart.abs() + tilted <= NEARLY * stride;
         serves.then(|| Self {
             base_radius: [first.base_radius, second.base_radius],
@@ -194,15 +198,12 @@ impl FirstOrderGap {
         Ok(([low, high], square))
     }
 
-    /// Whether plain helicoids surely come no nearer to each other than `reach` (mm) at a height (mm): where one of them
-    /// ends before the place of touch they have parted by at least half of the least curvature on the way times its
-    /// square.
-    pub fn is_wider(&self, z: f64, reach: f64) -> bool {
-        let ([low, high], square) = match self.faced(self.touch_at(z)) {
-            Ok(faced) => faced,
-            Err(sure) => return sure,
-        };
-        let s = 0f64.clamp(low, high);
+    /// What nominal flanks part by at the least at an arc from the place of touch, mm: half of the least curvature on the
+    /// way times its square. `square`: of the roll angles of that place.
+    fn surely_parted(&self, s: f64, square: [f64; 2]) -> f64 {
+        if s == 0.0 {
+            return 0.0;
+        }
         let least = |r: f64, square: [f64; 2]| {
             let [a, b] = square.map(|u| r.abs() * u.max(0.0).sqrt());
             if r > 0.0 { 1.0 / a.max(b) } else { -1.0 / a.min(b) }
@@ -210,7 +211,17 @@ impl FirstOrderGap {
         let [r1, r2] = self.base_radius;
         let curvature =
             least(r1, [square[0], square[0] + 2.0 * s / r1]) + least(r2, [square[1], square[1] - 2.0 * s / r2]);
-        let parted = if s == 0.0 { 0.0 } else { SURELY * 0.5 * self.cos_base_helix * curvature * s * s };
+        SURELY * 0.5 * self.cos_base_helix * curvature * s * s
+    }
+
+    /// Whether plain helicoids surely come no nearer to each other than `reach` (mm) at a height (mm): where one of them
+    /// ends before the place of touch they have parted by [`Self::surely_parted`] at the least.
+    pub fn is_wider(&self, z: f64, reach: f64) -> bool {
+        let ([low, high], square) = match self.faced(self.touch_at(z)) {
+            Ok(faced) => faced,
+            Err(sure) => return sure,
+        };
+        let parted = self.surely_parted(0f64.clamp(low, high), square);
         self.apart - self.tilted + parted + self.shallowest > reach
     }
 
@@ -228,15 +239,18 @@ impl FirstOrderGap {
         let nearest = 0f64.clamp(low, high);
         let heights = [z, z - self.offset];
         let shallowest = surfaces[0].least_depth_at(heights[0]) + surfaces[1].least_depth_at(heights[1]);
-        let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + shallowest - 2.0 * amount;
+        let at_least = |s: f64| ((1.0 - share) * parted(s)).min(self.surely_parted(s, square));
+        let least = self.apart - self.tilted + at_least(nearest) + shallowest - 2.0 * amount;
         if least > reach {
             return Some(Outlook::Wider(least));
         }
         let rolls = |s: f64| [(square[0] + 2.0 * s / r1).max(0.0).sqrt(), (square[1] - 2.0 * s / r2).max(0.0).sqrt()];
         let told_of = |s: f64, depths: [f64; 2]| -> Place { [s, parted(s) + depths[0] + depths[1], parted(s)] };
         let told = |p: Place| {
-            let doubt = 0.5 * amount + share * p[2] + self.tilted;
-            [self.apart + p[1] - doubt, self.apart + p[1] + doubt]
+            // Between two places depths may be less than at both.
+            let doubt = amount + self.tilted;
+            let depths = p[1] - p[2];
+            [self.apart + at_least(p[0]) + depths - doubt, self.apart + (1.0 + share) * p[2] + depths + doubt]
         };
         let at = rolls(nearest);
         let here = told_of(nearest, [0, 1].map(|i| surfaces[i].depth([at[i], heights[i]])));

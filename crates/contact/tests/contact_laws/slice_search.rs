@@ -89,11 +89,16 @@ fn flanks(modified: bool, [data, wheel]: [GearData; 2]) -> Flanks {
 
 /// A pose anywhere in the path of contact and beyond its ends, axes apart and tilted.
 fn poses(pair: &GearPair, random: &mut Random) -> [Pose; 2] {
+    poses_within(pair, random, 1.0)
+}
+
+/// As [`poses`], off the nominal ones by a share of that.
+fn poses_within(pair: &GearPair, random: &mut Random, share: f64) -> [Pose; 2] {
     let theta1 = pair.middle_angle(Side::Left) + random.between(-1.1, 1.1) * pair.pinion.pitch_angle();
-    let lag = random.between(-2e-3, 2e-3);
+    let lag = share * random.between(-2e-3, 2e-3);
     let about = |angle: f64| UnitQuaternion::from_axis_angle(&Vec3::z_axis(), angle);
-    let tilt = Vec3::new(random.between(-3e-3, 3e-3), random.between(-3e-3, 3e-3), 0.0);
-    let shift = [0.0; 3].map(|_: f64| random.between(-0.2, 0.2));
+    let tilt = share * Vec3::new(random.between(-3e-3, 3e-3), random.between(-3e-3, 3e-3), 0.0);
+    let shift = [0.0; 3].map(|_: f64| share * random.between(-0.2, 0.2));
     let centre = Translation3::new(pair.centre_distance() + shift[0], shift[1], shift[2]);
     [
         Pose::from_parts(Translation3::identity(), about(theta1)),
@@ -241,5 +246,27 @@ fn rigid_flanks_are_slices_without_a_mesh() {
             assert!((found.position - row.position).norm() < 1e-9, "pose {seed}: {}, {}", found.position, row.position);
         }
         assert!(edges > 100 && faced - edges > 100, "{faced} facing, {edges} edges");
+    }
+}
+
+/// The least gap of a height is what was foretold of it: not less, not more.
+#[test]
+fn gaps_are_as_foretold() {
+    for data in [default_data(20.0), default_data(35.0), internal()] {
+        let set = flanks(true, data);
+        let mut held = 0;
+        for seed in 0..20_000 {
+            let mut random = Random::new(seed);
+            let share = 10f64.powf(random.between(-3.0, 0.0));
+            let poses = poses_within(&set.pair, &mut random, share);
+            let z = random.between(-10.0, 10.0);
+            let flanks = RigidFlanks::new([&set.patches[0], &set.patches[1]], &poses);
+            let seen = flanks.least_gap(z, &mut SliceHint::default()).map(|(_, gap, _)| gap);
+            let (Some([low, high]), Some(gap)) = (flanks.foretold(z), seen) else { continue };
+            held += usize::from(low.is_finite());
+            assert!(low <= gap && gap <= high, "pose {seed}, z {z}: {gap} mm, foretold {low} to {high} mm");
+        }
+        println!("ring {}: {held} gaps foretold", set.pair.is_internal());
+        assert!(held > 10_000, "{held} gaps foretold");
     }
 }
