@@ -28,10 +28,11 @@ pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Checks
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
     let check = |name: &'static str, value, bound| Check::new(name, value, bound, HINT);
     Checks::new([
+        // The first that fails is named: below round-off it is the cause of all others.
+        check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
         check("torque_residual", worst(|p| p.certificate.torque_residual), TORQUE),
         check("complementarity_residual", worst(|p| p.certificate.complementarity_residual), COMPLEMENTARITY),
         check("action_reaction_residual", worst(|p| p.certificate.action_reaction_residual), ACTION_REACTION),
-        check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
         check("pose_residual", worst(|p| p.certificate.pose_residual), POSE),
     ])
     .and(Checks::new([
