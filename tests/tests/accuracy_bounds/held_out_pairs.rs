@@ -12,7 +12,7 @@ fn bounds_hold_for_pairs_that_took_no_part() {
         .filter_map(|line| serde_json::from_str(line).ok())
         .collect();
     let pairs = MeasuredPair::all(&lines);
-    assert!(pairs.len() >= 10 && pairs.iter().all(|pair| held_out(pair.seed)), "{} pairs", pairs.len());
+    assert!(pairs.len() >= 25 && pairs.iter().all(|pair| held_out(pair.seed)), "{} pairs", pairs.len());
     let of = |q: Quantity| pairs.iter().flat_map(move |pair| pair_bounds(pair, q)).collect::<Vec<_>>();
     let all: Vec<_> = Quantity::ALL.iter().copied().filter(|q| !q.is_of_motion()).flat_map(of).collect();
     let inside = all.iter().filter(|bound| bound.holds()).count() as f64 / all.len() as f64;

@@ -84,7 +84,7 @@ fn meshes_in_memory_have_no_bounds() {
 #[test]
 fn the_calibration_is_whole() {
     let all = Calibration::committed();
-    assert!(all.pairs >= 40 && all.coverage >= 0.95, "{} pairs, {}", all.pairs, all.coverage);
+    assert!(all.pairs >= 60 && all.coverage >= 0.95, "{} pairs, {}", all.pairs, all.coverage);
     for quantity in Quantity::ALL.iter().filter(|q| !q.is_of_motion()) {
         let laws = all.of(*quantity).unwrap_or_else(|| panic!("no laws of {}", quantity.key()));
         for mesh in [2, 3, 4, 6].map(CalibratedMesh::Rung).into_iter().chain([CalibratedMesh::Default]) {
