@@ -109,7 +109,7 @@ pub fn draw(seed: u64, index: u64) -> RandomScene {
     if anything {
         let keys = keys_of_schema();
         for _ in 0..d.whole(1, 3) {
-            whole_range::draw_any_key(&mut d, &keys);
+            whole_range::draw_any_key(&mut d, keys);
         }
     }
     // Last, so that all other scenes of a seed stay what they are.

@@ -1,5 +1,7 @@
 //! Any key of the scene over its whole documented range, taken from the schema itself: a key that is added is drawn.
 
+use std::sync::LazyLock;
+
 use scene::{Value, json_schema};
 use serde_json::Value as Json;
 
@@ -52,8 +54,13 @@ pub struct Key {
 /// Tables of what is asked of a pair beside a run: no keys of the pair.
 const TASKS: [&str; 2] = ["vary", "optimise"];
 
-/// Every key of the scene file that is about the pair.
-pub fn keys_of_schema() -> Vec<Key> {
+/// Every key of the scene file that is about the pair. The schema is made once: scenes are drawn by the thousand.
+pub fn keys_of_schema() -> &'static [Key] {
+    static KEYS: LazyLock<Vec<Key>> = LazyLock::new(keys_of_pair);
+    &KEYS
+}
+
+fn keys_of_pair() -> Vec<Key> {
     let (mut all, mut schema) = (Vec::new(), json_schema()["$defs"]["pair"].take());
     for task in TASKS {
         schema["properties"].as_object_mut().and_then(|tables| tables.remove(task)).expect("a table of the schema");

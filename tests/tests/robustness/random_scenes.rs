@@ -42,7 +42,7 @@ fn a_scene_is_determined_by_seed_and_number() {
 #[test]
 fn no_key_is_left_out() {
     let all: BTreeSet<String> = scene::all_keys().into_iter().collect();
-    let of_schema: BTreeSet<String> = keys_of_schema().into_iter().map(|k| k.name).collect();
+    let of_schema: BTreeSet<String> = keys_of_schema().iter().map(|k| k.name.clone()).collect();
     assert_eq!(all, of_schema, "keys of the table and of the schema");
     let folder = tempfile::tempdir().unwrap();
     std::os::unix::fs::symlink(testing::meshes_folder(), folder.path().join("meshes")).unwrap();

@@ -58,8 +58,10 @@ fn an_engine_lets_the_teeth_rattle() {
 }
 
 /// On maps, and with friction on all flanks, torque goes back as in the contact itself: flanks part on both sides, strike as
-/// hard, lose as much, and the energy is accounted for.
+/// hard, lose as much, and the energy is accounted for. The short form is `torque_reverses_through_backlash_on_maps` of
+/// `gearbox_laws`, without documents.
 #[test]
+#[ignore = "20 s: the maps of two stages with friction on both flanks"]
 fn torque_reverses_on_maps_as_in_the_contact() {
     let rough = ["mesh.0.scene.contact.friction=0.05", "mesh.1.scene.contact.friction=0.05"];
     let [exact, mapped] = ["exact", "mapped"].map(|mesh| {

@@ -93,9 +93,11 @@ fn off(name: &str, section: &str, text: &str, reference: &Reference) -> [f64; 2]
     [own / wanted - 1.0, load / theirs - 1.0]
 }
 
+/// The shipped box at rest.
 fn shipped() -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gearbox");
-    std::fs::read_to_string(folder.join("overhung_pinion.toml")).unwrap()
+    let text = std::fs::read_to_string(folder.join("overhung_pinion.toml")).unwrap();
+    text.split_once("[motion]").unwrap().0.to_owned()
 }
 
 /// The shipped box, the shaft a beam up to a stub that is meshed with its pinion: misalignment of the section where the

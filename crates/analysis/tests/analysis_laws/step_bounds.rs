@@ -31,7 +31,7 @@ fn moved(speed_rpm: f64, steps: u32) -> [f64; 2] {
 /// say so: the bound holds, and is less than five times the error.
 #[test]
 fn steps_beside_a_superharmonic_tell_their_error() {
-    for speed in [2988.0, 3215.0] {
+    for speed in [2988.0, 3215.0].into_iter().take(testing::cases(1, 2)) {
         let exact = moved(speed, 256)[0];
         for steps in [16, 32] {
             let [found, bound] = moved(speed, steps);

@@ -95,9 +95,8 @@ fn rms(values: &[f64]) -> f64 {
 /// either sense, on driving and on coast flanks: to the error that the map tells of itself.
 #[test]
 fn friction_on_a_map_is_that_of_the_contact() {
-    for (helix, sense, tilts) in
-        [(12.0, Sense::Ccw, true), (12.0, Sense::Cw, true), (0.0, Sense::Ccw, false), (0.0, Sense::Cw, true)]
-    {
+    let all = [(12.0, Sense::Ccw, true), (0.0, Sense::Cw, true), (0.0, Sense::Ccw, false), (12.0, Sense::Cw, true)];
+    for (helix, sense, tilts) in all.into_iter().take(testing::cases(3, 4)) {
         let own = Rubbing::new(helix, sense, FRICTION);
         let mut mapped = own.mapped(tilts, 2e-3);
         let maps: Vec<_> = mapped.maps().cloned().collect();
@@ -389,7 +388,7 @@ fn spread(values: &[f64]) -> f64 {
 #[test]
 fn torque_reverses_through_backlash_on_maps() {
     let drive = Drive::Speed(Speed::Ramp { from: 200.0, to: 120.0, start: 0.0, duration: 0.02 });
-    for friction in [0.0, FRICTION] {
+    for friction in [FRICTION, 0.0].into_iter().take(testing::cases(1, 2)) {
         let [exact, mapped] = [false, true].map(|maps| run_two_stages((maps, 16.0), drive, friction, [8, 60]));
         println!("{:?} {:?}", exact.1.flanks, mapped.1.flanks);
         assert!(mapped.1.energy.relative_residual.abs() < 1e-9, "{:?}", mapped.1.energy);

@@ -101,7 +101,7 @@ fn pitch_errors_stay_with_their_teeth() {
     let case = generated(20.0, SMALL);
     let pitch = |amount| GearModifications { pitch_errors: scatter(amount), ..GearModifications::default() };
     let case = ground(case, [pitch(0.004), pitch(-0.003)]);
-    for sense in [Sense::Ccw, Sense::Cw] {
+    for sense in [Sense::Ccw, Sense::Cw].into_iter().take(testing::cases(1, 2)) {
         let options = case.options().with_contact(|c| {
             c.sense = sense;
             c.points_per_face_edge = 4;

@@ -46,7 +46,7 @@ fn on_the_lowest_rung_they_are_caught_as_well() {
         scene.analysis.model = Model::Auto;
         Adversary { scene, ..adversary }
     };
-    all_are_caught(all.into_iter().step_by(testing::cases(2, 1)).map(auto).collect());
+    all_are_caught(all.into_iter().step_by(testing::cases(4, 1)).map(auto).collect());
 }
 
 /// Mean and peak-to-peak STE lie inside of their bounds, or the result says in words why they need not.
