@@ -1,4 +1,4 @@
-//! How many cycles the fastest mesh has in a turn of the input, by the numbers of teeth, and in a duration.
+//! How many cycles the fastest mesh has in a turn of the input, by the numbers of teeth.
 
 use super::file::{GearboxGear, GearboxMesh};
 
@@ -24,10 +24,4 @@ pub(super) fn fastest_per_turn(input: usize, meshes: &[GearboxMesh], gears: &[Ge
     }
     let cycles = |mesh: &GearboxMesh| ratios[gears[mesh.gears[0]].shaft].unwrap_or(0.0) * teeth(mesh)[0];
     meshes.iter().map(cycles).fold(0.0, f64::max)
-}
-
-/// Whole mesh cycles within which a duration (s) ends, >= 1; `mesh_hz`: their mean frequency. Last digits of a duration are
-/// no further cycle.
-pub(super) fn whole_cycles(duration_s: f64, mesh_hz: f64) -> f64 {
-    (duration_s * mesh_hz * (1.0 - 1e-9)).ceil().max(1.0)
 }

@@ -4,7 +4,6 @@ use integrate::Scheme;
 use toml::Spanned;
 
 use super::{
-    mesh_cycles::whole_cycles,
     schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawContinuation, RawMotion},
     values::{Checked, given, needed_of, row},
 };
@@ -309,4 +308,10 @@ fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Ch
         return Err(s.conflict(&own.span(), said, hint));
     }
     Ok(Some((row!(s, MOTION, raw.periodic_tolerance)?, row!(s, MOTION, raw.warm_up_cycles)?)))
+}
+
+/// Whole mesh cycles within which a duration (s) ends, >= 1; `mesh_hz`: their mean frequency. Last digits of a duration are
+/// no further cycle.
+pub(super) fn whole_cycles(duration_s: f64, mesh_hz: f64) -> f64 {
+    (duration_s * mesh_hz * (1.0 - 1e-9)).ceil().max(1.0)
 }

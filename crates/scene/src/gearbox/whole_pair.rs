@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::mesh_cycles::whole_cycles;
+use super::motion::whole_cycles;
 use super::of_pair::{Beside, LIGHT, NO_MASS, moving, two_shafts};
 use crate::{
     Axis, BearingScene, Driver, GearScene, Model, MotionScene, RampScene, Run, Scene, SceneError, TorqueScene,
