@@ -4,7 +4,7 @@ use scene::Quantity;
 use verification::{held_out::held_out, measured_pair::MeasuredPair, pair_bounds::pair_bounds};
 
 /// Of the numbers of pairs of a seed for checks, on all meshes and numbers of positions, at least 95 in 100 lie inside of their
-/// bounds; mean transmission error and stiffness have bounds of at most some three times the error, in the median.
+/// bounds; mean transmission error and stiffness have bounds of at most three times the error, in the median.
 #[test]
 fn bounds_hold_for_pairs_that_took_no_part() {
     let lines: Vec<serde_json::Value> = include_str!("../../data/held_out_pairs.jsonl")
@@ -21,6 +21,6 @@ fn bounds_hold_for_pairs_that_took_no_part() {
         let mut ratios: Vec<f64> = of(q).iter().map(|bound| bound.sharpness()).collect();
         ratios.sort_unstable_by(f64::total_cmp);
         let median = ratios[ratios.len() / 2];
-        assert!(median <= 3.3, "{}: bound over error {median}", q.key());
+        assert!(median <= 3.0, "{}: bound over error {median}", q.key());
     }
 }

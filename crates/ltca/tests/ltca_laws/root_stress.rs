@@ -195,8 +195,6 @@ fn same(a: &FilletStress, b: &FilletStress, scale: f64, tolerance: f64, at: &str
 /// gears that are cyclic and on gears that are not.
 #[test]
 fn root_stress_goes_on_across_tooth_changes() {
-    // Positions of a mesh cycle.
-    let phases = testing::cases(2, 4) as i64;
     for (sense, cyclic) in [(Sense::Ccw, true), (Sense::Cw, true), (Sense::Ccw, false)] {
         let mut case = generated(20.0, [2, 2, 2, 4, 1]);
         if !cyclic {
@@ -211,8 +209,8 @@ fn root_stress_goes_on_across_tooth_changes() {
         let mut model = case.reduced(options);
         let mut first: Vec<StaticPosition> = Vec::new();
         let mut changes = 0;
-        for i in 0..phases * 33 {
-            let station = Station { cycle: i / phases, phase: (i % phases) as f64 / phases as f64 };
+        for i in 0..4 * 33 {
+            let station = Station { cycle: i / 4, phase: 0.25 * (i % 4) as f64 };
             let position = model
                 .advance(station, |change| {
                     changes += 1;
@@ -232,15 +230,15 @@ fn root_stress_goes_on_across_tooth_changes() {
                     }
                 })
                 .unwrap();
-            if i < phases {
+            if i < 4 {
                 first.push(position);
                 continue;
             }
-            let earlier = &first[(i % phases) as usize];
+            let earlier = &first[i as usize % 4];
             for gear in 0..2 {
                 let scale = largest(&earlier.root_stress[gear], |f| f.von_mises.stress);
                 // The pinion's teeth come in descending order when it turns counter-clockwise.
-                let moved = sense.sign() * (i / phases) * if gear == 0 { -1 } else { 1 };
+                let moved = sense.sign() * (i / 4) * if gear == 0 { -1 } else { 1 };
                 for now in &position.root_stress[gear] {
                     let tooth = (i64::from(now.tooth) - moved).rem_euclid(30) as u32;
                     let then = earlier.root_stress[gear].iter().find(|f| (f.tooth, f.side) == (tooth, now.side));
