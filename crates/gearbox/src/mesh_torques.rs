@@ -5,12 +5,15 @@ use geometry::Gear;
 use crate::{GearMesh, Operation, Structure};
 
 /// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, friction left out; `None` where meshes close a
-/// ring, whose shares are a matter of stiffness.
+/// ring, whose shares are a matter of stiffness, and where a shaft that is fixed in space takes a torque.
 ///
 /// ```text
 /// T_mesh + sum T_loads + sum T_meshes beyond = 0 on every shaft but that of the input,   T_1 / T_2 = z_1 / z_2 (below zero of a ring)
 /// ```
 pub fn mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Operation) -> Option<Vec<[f64; 2]>> {
+    if structure.fixed.is_some() {
+        return None;
+    }
     let shaft = |disc: usize| Some(structure.discs.get(disc)?.shaft);
     let ends = meshes.iter().map(|m| Some([shaft(m.discs[0])?, shaft(m.discs[1])?])).collect::<Option<Vec<_>>>()?;
     // Shafts from the input on, each with the mesh and the end of it by which it was reached.

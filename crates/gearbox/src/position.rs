@@ -94,7 +94,7 @@ fn shaft_line(gearbox: &StaticGearbox, shaft: usize, all: &DVector<f64>) -> Shaf
 /// How far a disc stays behind its nominal turn, rad.
 fn lag(gearbox: &StaticGearbox, disc: usize, seats: &DVector<f64>) -> f64 {
     let shaft = gearbox.assembly.structure().discs[disc].shaft;
-    let sense = (gearbox.train.ratios()[shaft] * gearbox.operation.sense.sign() as f64).signum();
+    let sense = (gearbox.train.ratios_in_space()[shaft] * gearbox.operation.sense.sign() as f64).signum();
     let turned = gearbox.seats.of_disc(&gearbox.assembly, disc).map_or(0.0, |at| seats[at + 5]);
     0.0 - sense * turned
 }

@@ -44,6 +44,22 @@ pub enum SeatError {
         /// Name of the shaft.
         shaft: String,
     },
+    /// A torque or the input on a shaft that is fixed in space.
+    #[error("{part} is on shaft {shaft}, which is fixed in space")]
+    Fixed {
+        /// Input or torque.
+        part: String,
+        /// Name of the shaft.
+        shaft: String,
+    },
+    /// An input that cannot turn while a shaft is fixed.
+    #[error("with shaft {fixed} fixed in space the input on shaft {input} cannot turn")]
+    Locked {
+        /// Name of the input's shaft.
+        input: String,
+        /// Name of the fixed shaft.
+        fixed: String,
+    },
     /// A shaft that stands and is held.
     #[error("shaft {shaft} stands and is held: nothing of it moves")]
     Nothing {
@@ -68,6 +84,10 @@ impl SeatError {
                 "give one of its bearings `turn_stiffness_nm_per_rad`: what holds the carrier where it is seen from"
             }
             Self::Stands { .. } => "leave `stands` out, or put it on a shaft that turns",
+            Self::Fixed { .. } => "leave it out: the torque of a fixed shaft is what its bearings hold",
+            Self::Locked { .. } => {
+                "fix another shaft, or drive another one: the numbers of teeth leave this one no speed"
+            }
             Self::Nothing { .. } => "leave the shaft out and seat its bearings in the housing",
         }
     }

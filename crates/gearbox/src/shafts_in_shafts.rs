@@ -13,6 +13,11 @@ impl Structure {
         self.standing.contains(&shaft)
     }
 
+    /// Whether bearings can hold the turn of a shaft: it stands, or is fixed in space.
+    pub(crate) fn can_hold_turn(&self, shaft: usize) -> bool {
+        self.stands(shaft) || self.fixed == Some(shaft)
+    }
+
     /// Place of a bearing from the origin of the shaft that its seat is part of, mm; `None` in the housing.
     pub(crate) fn seat(&self, bearing: &Bearing) -> Option<[f64; 3]> {
         let [outer, own] = [bearing.outer?, bearing.shaft].map(|shaft| self.shafts.get(shaft));
@@ -50,8 +55,12 @@ impl Structure {
                 self.on_shaft(&part, outer, z)?;
             }
         }
-        for &shaft in &self.standing {
+        for &shaft in self.standing.iter().chain(&self.fixed) {
             self.has_shaft("what stands", shaft)?;
+            // Beside a fixed shaft the meshes may hold the turn of the carrier: all are looked at together.
+            if self.fixed.is_some_and(|fixed| fixed != shaft) {
+                continue;
+            }
             let holds = |b: &&Bearing| (b.shaft == shaft || b.outer == Some(shaft)) && b.stiffness[(5, 5)] > 0.0;
             if !self.bearings.iter().any(|b| holds(&b)) {
                 return Err(SeatError::Free { shaft: name(shaft) }.into());
@@ -69,11 +78,23 @@ impl Structure {
         Err(SeatError::Stands { part: part.into(), shaft: self.shafts[shaft].name.clone() }.into())
     }
 
+    /// Checks that a torque or the input is on a shaft that turns in space.
+    pub(crate) fn turns_in_space(&self, part: &str, disc: usize) -> Result<(), GearboxError> {
+        let shaft = self.discs[disc].shaft;
+        match self.fixed {
+            None => self.turns(part, disc),
+            Some(fixed) if fixed == shaft => {
+                Err(SeatError::Fixed { part: part.into(), shaft: self.shafts[shaft].name.clone() }.into())
+            }
+            Some(_) => Ok(()),
+        }
+    }
+
     /// Checks that no shaft that is held stands, or has a bearing in common with another one.
     pub(crate) fn check_held_seats(&self, held: &[usize]) -> Result<(), GearboxError> {
         let held = |shaft: usize| held.contains(&shaft);
         let name = |shaft: usize| self.shafts[shaft].name.clone();
-        if let Some(&shaft) = self.standing.iter().find(|shaft| held(**shaft)) {
+        if let Some(&shaft) = self.standing.iter().chain(&self.fixed).find(|shaft| held(**shaft)) {
             return Err(SeatError::Nothing { shaft: name(shaft) }.into());
         }
         for bearing in &self.bearings {

@@ -186,13 +186,13 @@ pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation)
     structure.check_held_seats(&operation.held)?;
     for torque in &operation.torques {
         structure.has_discs("a torque", [torque.disc; 2])?;
-        structure.turns("a torque", torque.disc)?;
+        structure.turns_in_space("a torque", torque.disc)?;
         let disc = &structure.discs[torque.disc];
         let (part, value) = (disc.name.clone(), torque.torque);
         if !value.is_finite() {
             return Err(GearboxError::OutOfRange { part, quantity: "torque, N mm", value });
         }
-        let speed = train.ratios()[disc.shaft] * operation.sense.sign() as f64;
+        let speed = train.ratios_in_space()[disc.shaft] * operation.sense.sign() as f64;
         if value * speed > 0.0 {
             return Err(GearboxError::Drives { disc: part, torque_nmm: value });
         }

@@ -102,6 +102,9 @@ pub struct Structure {
     pub machines: Vec<Machine>,
     /// Shafts that do not turn, whose bearings hold their turn as well: carriers seen from themselves, and pins.
     pub standing: Vec<usize>,
+    /// Shaft that does not turn in space while the frame of the carrier does: a ring, or a sun. Its bearings hold its turn.
+    /// `None`: the carrier does not turn in space.
+    pub fixed: Option<usize>,
 }
 
 impl Disc {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use geometry::{Driver, Gear, GearPair, Sense, Side};
 
-use crate::{GearboxError, Structure};
+use crate::{GearboxError, SeatError, Structure};
 
 /// A mesh: two gears, seats on their shafts, and what shape they are.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +41,7 @@ pub struct Train {
     meshes: Vec<Meshing>,
     middles: Vec<[f64; 2]>,
     ratios: Vec<f64>,
+    in_space: Vec<f64>,
 }
 
 /// Relative difference of distances, ratios and angles that is round-off of their input.
@@ -55,6 +56,15 @@ impl Train {
     /// phi: direction of the mesh, theta_w: angle of the wheel whose flanks touch ([`GearPair::wheel_angle`]). `keys[i]`
     /// is the angle of tooth 0 of disc i against the mark of its shaft, rad; the mark of the input shaft is at 0, and
     /// those of the others follow from the first mesh that reaches them.
+    ///
+    /// Where a shaft is fixed in space ([`Structure::fixed`]) the frame of the carrier turns, and ratios count turns in that
+    /// frame for a turn of the input in space (Willis):
+    ///
+    /// ```text
+    /// n_i - n_c = r_i/(r_in - r_f) n_in,   n_c = -r_f/(r_in - r_f) n_in      r: by the teeth, carrier at rest (r_c = 0)
+    /// ```
+    /// Meshes are followed from the input, or from the fixed shaft where the input is on what stands, or takes power from
+    /// the meshes in that frame.
     ///
     /// # Errors
     /// [`GearboxError`]: distances of axes and offsets of mid-faces that the pairs were not made for, rings whose ratios
@@ -74,21 +84,46 @@ impl Train {
         if let Some((disc, &value)) = structure.discs.iter().zip(keys).find(|(_, k)| !k.is_finite()) {
             return Err(GearboxError::OutOfRange { part: disc.name.clone(), quantity: "key, rad", value });
         }
-        structure.turns("the input", input)?;
-        let mut walk = Walk::new(structure, meshes, (keys, sense))?;
-        walk.ratios[structure.discs[input].shaft] = Some(1.0);
-        while walk.goes_on()? {}
-        let ratio = |(i, (shaft, r)): (usize, (&crate::Shaft, Option<f64>))| {
-            let at_rest = structure.stands(i).then_some(0.0);
-            r.or(at_rest).ok_or_else(|| GearboxError::NotDriven { shaft: shaft.name.clone() })
+        structure.turns_in_space("the input", input)?;
+        let on = structure.discs[input].shaft;
+        let ratios_from = |shaft: usize, ratio: f64| {
+            let mut walk = Walk::new(structure, meshes, (keys, sense))?;
+            walk.ratios[shaft] = Some(ratio);
+            while walk.goes_on()? {}
+            let ratio = |(i, (shaft, r)): (usize, (&crate::Shaft, &Option<f64>))| {
+                let at_rest = structure.stands(i).then_some(0.0);
+                r.or(at_rest).ok_or_else(|| GearboxError::NotDriven { shaft: shaft.name.clone() })
+            };
+            let all = structure.shafts.iter().zip(&walk.ratios).enumerate().map(ratio);
+            Ok::<_, GearboxError>((all.collect::<Result<Vec<_>, _>>()?, walk))
         };
-        let ratios = structure.shafts.iter().zip(walk.ratios).enumerate().map(ratio).collect::<Result<Vec<_>, _>>()?;
+        let (ratios, walk, carrier) = match structure.fixed {
+            None => {
+                let (ratios, walk) = ratios_from(on, 1.0)?;
+                (ratios, walk, 0.0)
+            }
+            Some(fixed) => {
+                let (by_teeth, _) = ratios_from(fixed, 1.0)?;
+                let against = by_teeth[on] - 1.0;
+                if against.abs() < SAME {
+                    let [input, fixed] = [on, fixed].map(|shaft| structure.shafts[shaft].name.clone());
+                    return Err(SeatError::Locked { input, fixed }.into());
+                }
+                // The input has power for the meshes where it turns in one sense in both frames.
+                let from = if by_teeth[on] / against > 0.0 { on } else { fixed };
+                let (ratios, walk) = ratios_from(from, by_teeth[from] / against)?;
+                (ratios, walk, -1.0 / against)
+            }
+        };
+        let in_space =
+            ratios.iter().enumerate().map(|(i, r)| if structure.fixed == Some(i) { 0.0 } else { r + carrier });
+        let in_space = in_space.collect();
         // Where every shaft is driven, every mesh has been reached.
         let meshing: Vec<Meshing> = walk.found.into_iter().flatten().collect();
         let middle =
             |(mesh, own): (&GearMesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
         let middles = meshes.iter().zip(&meshing).map(middle).collect();
-        Ok(Self { meshes: meshing, middles, ratios })
+        Ok(Self { meshes: meshing, middles, ratios, in_space })
     }
 
     /// Running of each mesh, in their order.
@@ -96,9 +131,16 @@ impl Train {
         &self.meshes
     }
 
-    /// Turns of each shaft a turn of the input shaft, negative against it; 0 of shafts that stand.
+    /// Turns of each shaft in the frame of the carrier a turn of the input shaft, negative against it; 0 of shafts that
+    /// stand.
     pub fn ratios(&self) -> &[f64] {
         &self.ratios
+    }
+
+    /// Turns of each shaft in space a turn of the input shaft, negative against it: [`Train::ratios`] and the turns of the
+    /// carrier.
+    pub fn ratios_in_space(&self) -> &[f64] {
+        &self.in_space
     }
 
     /// Mesh cycles of each mesh with the input shaft turned by `angle` (rad about +z) from its start: whole cycles count the

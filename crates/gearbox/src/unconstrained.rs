@@ -40,13 +40,16 @@ pub(crate) fn check_held(
         whole_by_bearings.iter().map(|own| own.fixed_view::<5, 5>(0, 0).into_owned()).collect();
     let is_loose = |i: &usize| !held[*i] && free(&by_bearings[*i]).is_some();
     let loose: Vec<usize> = (0..by_bearings.len()).filter(is_loose).collect();
-    let Some(&first) = loose.first() else { return Ok(()) };
+    // Beside a fixed shaft meshes hold the turn of what stands.
+    if loose.is_empty() && structure.fixed.is_none() {
+        return Ok(());
+    }
     // Coordinates: six a shaft, of which those stay that nothing prescribes.
     let n = 6 * by_bearings.len();
     let mut whole = DMatrix::zeros(n, n);
     for (i, own) in by_bearings.iter().enumerate() {
         whole.view_mut((6 * i, 6 * i), (5, 5)).copy_from(own);
-        if structure.stands(i) {
+        if structure.can_hold_turn(i) {
             whole.view_mut((6 * i, 6 * i), (6, 6)).copy_from(&whole_by_bearings[i]);
         }
     }
@@ -96,7 +99,7 @@ pub(crate) fn check_held(
     // A shaft that stands and turns off, whatever it takes along: nothing holds its turn.
     let (furthest, _) = moved.abs().argmax();
     if let (shaft, 5) = (left[furthest] / 6, left[furthest] % 6)
-        && structure.stands(shaft)
+        && (structure.can_hold_turn(shaft) || loose.is_empty())
     {
         return Err(GearboxError::Loose { shaft: structure.shafts[shaft].name.clone(), motion: "about its own axis" });
     }
@@ -105,7 +108,8 @@ pub(crate) fn check_held(
         let own = left.iter().zip(moved.iter()).filter(|(c, _)| **c / 6 == shaft && **c % 6 < 5);
         own.map(|(_, share)| share.abs()).fold(0.0, f64::max)
     };
-    named(loose.iter().copied().fold(first, |a, b| if most(b) > most(a) { b } else { a }))
+    let worst = loose.iter().copied().reduce(|a, b| if most(b) > most(a) { b } else { a });
+    named(worst.unwrap_or(left[furthest] / 6))
 }
 
 impl Structure {

@@ -94,6 +94,7 @@ fn every_key_is_in_a_scene_that_runs() {
         "resonance_curve.toml",
         "planet_in_ring.toml",
         "planetary_stage.toml",
+        "planetary_stage_ring_fixed.toml",
     ];
     let all: String = boxes.iter().map(|name| scratch.read(name)).collect();
     let has = |key: &str| {
@@ -111,6 +112,7 @@ fn every_key_is_in_a_scene_that_runs() {
         "elastic_gears.toml",
         "elastic_pair.toml",
         "planetary_stage.toml",
+        "planetary_stage_ring_fixed.toml",
     ] {
         // Meshes are beside the folder of the scenes.
         let file = folder.join(name).display().to_string();

@@ -100,8 +100,8 @@ impl BearingTurns {
     pub fn of((file, train): (&Gearbox, &Train), bearing: usize, input_speed_rpm: f64) -> Option<Self> {
         let GearboxBearing { shaft, in_shaft, .. } = file.bearings[bearing];
         // Its rings turn against each other.
-        let seat = in_shaft.map_or(0.0, |seat| train.ratios()[seat]);
-        let speed_rpm = input_speed_rpm * (train.ratios()[shaft] - seat).abs();
+        let seat = in_shaft.map_or(0.0, |seat| train.ratios_in_space()[seat]);
+        let speed_rpm = input_speed_rpm * (train.ratios_in_space()[shaft] - seat).abs();
         let asked = file.rating.as_ref().filter(|_| speed_rpm > 0.0 && !file.shafts[shaft].held)?;
         Some(Self { speed_rpm, viscosity: asked.viscosity, contamination_factor: asked.contamination_factor })
     }

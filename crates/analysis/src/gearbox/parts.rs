@@ -46,7 +46,8 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
         all
     });
     let standing = file.shafts.iter().enumerate().filter(|(_, s)| s.stands).map(|(i, _)| i).collect();
-    Ok(Structure { shafts, discs, bearings, housing, standing, ..Structure::default() })
+    let fixed = file.fixed_shaft();
+    Ok(Structure { shafts, discs, bearings, housing, standing, fixed, ..Structure::default() })
 }
 
 /// Disc of the input, its sense, and the keys of all discs.
@@ -77,7 +78,7 @@ pub(super) fn input_over_time(file: &Gearbox, mean: f64) -> Option<TorqueOverTim
 pub(super) fn operation(file: &Gearbox, train: &Train) -> Operation {
     let (input, sense, keys) = input(file);
     let load = |(i, t): (usize, &scene::gearbox::GearboxTorque)| {
-        let turns = train.ratios()[t.shaft] * sense.sign() as f64;
+        let turns = train.ratios_in_space()[t.shaft] * sense.sign() as f64;
         // 0.0 first: no torque is +0 and not -0.
         Torque { disc: input + 1 + i, torque: 0.0 - turns.signum() * t.torque }
     };

@@ -33,8 +33,10 @@ const LARGE: f64 = 0.2;
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
 pub struct GearboxResult {
-    /// Turns of each shaft a turn of the input, negative against it.
+    /// Turns of each shaft a turn of the input in the frame of the carrier, negative against it.
     pub ratios: Vec<f64>,
+    /// Turns of each shaft a turn of the input in space.
+    pub ratios_in_space: Vec<f64>,
     /// Pairs as they run, in the order of the meshes.
     pub pairs: Vec<GearPair>,
     /// Meshes.
@@ -169,7 +171,7 @@ pub struct OutputResult {
 /// Power of all loads at the speed of ratings, W.
 fn output_power_w(file: &Gearbox, train: &Train) -> f64 {
     let Some(asked) = &file.rating else { return 0.0 };
-    let turns = |shaft: usize| asked.speed_rpm * train.ratios()[shaft].abs() * TAU / 60.0;
+    let turns = |shaft: usize| asked.speed_rpm * train.ratios_in_space()[shaft].abs() * TAU / 60.0;
     file.torques.iter().map(|own| 1e-3 * own.torque * turns(own.shaft)).sum()
 }
 
@@ -269,6 +271,7 @@ pub(super) fn result(
     }
     GearboxResult {
         ratios: train.ratios().to_vec(),
+        ratios_in_space: train.ratios_in_space().to_vec(),
         meshes: of_meshes,
         bearings,
         outputs: (0..file.torques.len()).map(output).collect(),

@@ -23,6 +23,7 @@ mod moving_remarks;
 mod nominal_load;
 mod overhung;
 mod planets;
+mod planets_in_space;
 mod rating;
 mod rating_loads;
 mod remarks;

@@ -13,23 +13,23 @@ const TORQUE: f64 = 820.0;
 
 /// A stage of some planets.
 #[derive(Clone, Copy)]
-struct Stage {
+pub(crate) struct Stage {
     /// Of sun, planet and ring.
-    teeth: [i32; 3],
-    count: usize,
+    pub(crate) teeth: [i32; 3],
+    pub(crate) count: usize,
     /// How far the pin of planet 1 stands off along the circle, um.
-    pin: f64,
+    pub(crate) pin: f64,
     /// Radial stiffness of the sun's bearings, N/mm.
-    sun: f64,
+    pub(crate) sun: f64,
     /// Torque on the ring, N m.
-    torque: f64,
+    pub(crate) torque: f64,
 }
 
 /// Three planets, one after the other: 20 teeth of the sun leave a remainder of 2.
-const STAGE: Stage = Stage { teeth: [20, 31, -82], count: 3, pin: 0.0, sun: 6e5, torque: TORQUE };
+pub(crate) const STAGE: Stage = Stage { teeth: [20, 31, -82], count: 3, pin: 0.0, sun: 6e5, torque: TORQUE };
 
 impl Stage {
-    fn text(self) -> String {
+    pub(crate) fn text(self) -> String {
         let mut t = String::from("name = \"stage\"\n");
         let a = 0.5 * MODULE * f64::from(self.teeth[0] + self.teeth[1]);
         for (name, x) in [("sun", 0.0), ("ring", 0.0), ("planet", a)] {
@@ -57,7 +57,7 @@ impl Stage {
         t
     }
 
-    fn solve(self) -> GearboxResult {
+    pub(crate) fn solve(self) -> GearboxResult {
         let text = self.text();
         let file = Gearbox::parse(&text, Path::new("stage.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
         solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).unwrap_or_else(|e| panic!("{e}"))
@@ -87,7 +87,7 @@ impl Stage {
     }
 
     /// Normal forces of the meshes of planets with the sun and with the ring, position by position, N.
-    fn forces(self, found: &GearboxResult) -> Vec<[Vec<f64>; 2]> {
+    pub(crate) fn forces(self, found: &GearboxResult) -> Vec<[Vec<f64>; 2]> {
         let of = |p: &gearbox::GearboxPosition, m: usize| {
             p.meshes[m * self.count..][..self.count].iter().map(|mesh| mesh.normal_force).collect()
         };
@@ -102,7 +102,7 @@ impl Stage {
 }
 
 /// Positions a mesh cycle.
-const POSITIONS: usize = 9;
+pub(crate) const POSITIONS: usize = 9;
 
 /// Without edges that press off the line of action T_sun : T_ring = z_sun : z_ring at every angle, and a planet's two forces
 /// are equal. Planets share the load evenly in the mean. Each has the course of the first one as many cycles later as teeth

@@ -131,7 +131,7 @@ fn shafts(file: &Gearbox, result: &GearboxResult) -> Part {
         let bending = lines().flat_map(|line| &line.displacements).map(|u| u[0].hypot(u[1])).fold(0.0, f64::max);
         vec![
             Cell::text(&s.name),
-            Cell::number(result.ratios[i], 5),
+            Cell::number(result.ratios_in_space[i], 5),
             Cell::number(1e3 * bending, 2),
             Cell::number(1e6 * lines().map(twist).fold(0.0, f64::max), 1),
         ]

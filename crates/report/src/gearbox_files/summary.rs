@@ -305,7 +305,7 @@ pub(super) const OBJECTS: [(&str, &[Key]); 13] = [
 
 /// Everything known of a gearbox but its rows and its headline.
 pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value> {
-    let ratios = file.shafts.iter().zip(&result.ratios);
+    let ratios = file.shafts.iter().zip(&result.ratios_in_space);
     let outputs = result.outputs.iter();
     keyed(&GearboxSummary {
         accuracy: result.accuracy.as_ref(),

@@ -67,7 +67,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let torques = all(&raw.torque, |t| torque(s, t, &names))?;
     apart(s, &raw.mesh, &meshes)?;
     meshes.iter_mut().zip(&raw.mesh).try_for_each(|(mesh, table)| place_axes(s, table, mesh, (&shafts, &gears)))?;
-    loaded(s, &raw.mesh, (&meshes, &gears), (&input, &torques))?;
+    loaded(s, &raw.mesh, (&meshes, &gears, &shafts), (&input, &torques))?;
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let planets = written.planets(s, &raw.planets, (&shafts, &gears, &meshes))?;
     let parts = [meshes.len(), bearings.len()];

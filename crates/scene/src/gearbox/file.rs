@@ -60,6 +60,8 @@ pub struct Gearbox {
 
 /// Heights nearer than this are one: round-off of sums of positions, mm.
 const ONE_HEIGHT: f64 = 1e-9;
+/// Round-off of a stiffness that is turned about, relative.
+const ROUND: f64 = 1e-9;
 
 /// Height of the mid-face of the second gear over that of the first one, along +z, mm; `None` where they are at one
 /// height.
@@ -72,6 +74,11 @@ impl Gearbox {
     /// All meshes that planets have in common, with their planets, in the order of the file.
     pub fn meshes_of_planets(&self) -> impl Iterator<Item = (&GearboxPlanets, &PlanetMesh)> {
         self.planets.iter().flat_map(|planets| planets.meshes.iter().map(move |mesh| (planets, mesh)))
+    }
+
+    /// The shaft that is fixed in space while the carrier turns; `None`: the carrier does not turn.
+    pub fn fixed_shaft(&self) -> Option<usize> {
+        self.shafts.iter().position(|shaft| shaft.fixed)
     }
 
     /// The mesh that a part of a key means: by its number in the file from 0, else by its name; the first one where planets
@@ -104,8 +111,10 @@ pub struct GearboxShaft {
     pub density: f64,
     /// Rigid in rigid bearings.
     pub held: bool,
-    /// Whether it does not turn.
+    /// Whether it does not turn in the frame of the carrier.
     pub stands: bool,
+    /// Whether it does not turn in space, where the carrier does.
+    pub fixed: bool,
 }
 
 /// Planets of a stage.
@@ -174,6 +183,16 @@ pub struct GearboxBearing {
 }
 
 impl GearboxBearing {
+    /// Whether it is the same all round its axis, with its seat: nothing of it turns against another frame.
+    pub(super) fn is_round(&self) -> bool {
+        let mut turned = self.clone();
+        turned.turn_about(1.0);
+        let entries = |b: &Self| b.stiffness.concat();
+        let largest = entries(self).iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let apart = entries(self).iter().zip(entries(&turned)).any(|(a, b)| (a - b).abs() > ROUND * largest);
+        !apart && self.seat_offset[0] == 0.0 && self.seat_offset[1] == 0.0
+    }
+
     /// Turns the bearing with its seat about z, rad.
     pub(super) fn turn_about(&mut self, angle: f64) {
         let k = self.stiffness;

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::{
-    file::{GearboxGear, GearboxInput, GearboxMesh, GearboxTorque},
+    file::{GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque},
     schema::RawMesh,
     values::Checked,
 };
@@ -25,13 +25,16 @@ pub(super) fn apart(s: &Source<'_>, tables: &[Spanned<RawMesh>], meshes: &[Gearb
 pub(super) fn loaded(
     s: &Source<'_>,
     tables: &[Spanned<RawMesh>],
-    (meshes, gears): (&[GearboxMesh], &[GearboxGear]),
+    (meshes, gears, shafts): (&[GearboxMesh], &[GearboxGear], &[GearboxShaft]),
     (input, torques): (&GearboxInput, &[GearboxTorque]),
 ) -> Checked<()> {
+    // What is fixed in space takes a torque; a carrier has no meshes of its own.
+    let fixed = shafts.iter().position(|shaft| shaft.fixed);
+    let from = fixed.filter(|_| shafts[input.shaft].stands).unwrap_or(input.shaft);
     let ends = |m: &GearboxMesh| m.gears.map(|g| gears[g].shaft);
     // Shafts that the input reaches by all meshes but one.
     let reached = |without: Option<usize>| {
-        let mut all = vec![input.shaft];
+        let mut all = vec![from];
         let mut at = 0;
         while let Some(&shaft) = all.get(at) {
             for (_, mesh) in meshes.iter().enumerate().filter(|(k, _)| Some(*k) != without) {
@@ -53,7 +56,8 @@ pub(super) fn loaded(
         let still = reached(Some(i));
         let beyond = |shaft: &usize| driven.contains(shaft) && !still.contains(shaft);
         let alone = driven.iter().any(&beyond);
-        if unloaded || alone && !torques.iter().any(|t| t.torque > 0.0 && beyond(&t.shaft)) {
+        let mut takers = torques.iter().filter(|t| t.torque > 0.0).map(|t| t.shaft).chain(fixed);
+        if unloaded || alone && !takers.any(|shaft| beyond(&shaft)) {
             let said = format!("the mesh \"{}\" carries no load: no torque acts on the shafts beyond it", mesh.name);
             let advice =
                 "load them, as [[torque]] with `shaft`, `position_mm` and `torque_nm` above 0; or leave the mesh out";

@@ -41,7 +41,8 @@ table! {
         poisson: bare(0.0, 0.499), "Poisson's ratio; default: 0.3, or the REXS file's";
         density_kg_m3: bare(1e-9, 1e5), "density, kg/m^3, for vibration and motion; next to nothing where gears have all mass; default: 7850, or the REXS file's";
         held: switch(false), "whether it is rigid in rigid bearings. It turns about its axis and does nothing else; a pair alone is two of these";
-        stands: switch(false), "whether it does not turn: a carrier seen from itself, or its pin. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`)";
+        stands: switch(false), "whether it does not turn: a carrier seen from itself, or its pin. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`), or with a `fixed` shaft the meshes do";
+        fixed: switch(false), "whether it does not turn in space, while the carrier does: the ring of most stages. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`). The carrier, which stands in its own frame, is then an input or an output. Speeds and rotations of input and loads are those in space; at rest only";
     }
 }
 
@@ -114,7 +115,7 @@ table! {
         seat_offset_um: numbers(), "how far its seat stands off along x, y and z, um, up to 10000 either way: an error of a bore; default: 0, 0, 0";
         stiffness_n_per_mm: numbers(), "stiffness along x, y and z, N/mm, 0 .. 1e15 each; needed where there is no matrix and no `type`";
         tilt_stiffness_nm_per_rad: numbers(), "stiffness of the turns about x and y, N m/rad, 0 .. 1e15 each; default: 0, 0";
-        turn_stiffness_nm_per_rad: bare(0.0, 1e15), "stiffness of the turn about z, N m/rad, of a shaft that stands; default: 0";
+        turn_stiffness_nm_per_rad: bare(0.0, 1e15), "stiffness of the turn about z, N m/rad, of a shaft that stands or is fixed; default: 0";
         matrix_n_mm_rad: rows(0), "5 or 6 rows for x, y, z and the turns about x, y (and z): N/mm, N/rad and N mm/mm, N mm/rad; symmetric, no negative stiffness";
         damping_n_s_per_mm: numbers(), "damping along x, y and z, N s/mm, 0 .. 1e12 each, for vibration and motion; default: 0, 0, 0";
         r#type: bare_word(RollingKind), "what rolls in it; default: a bearing of a stiffness. Needle rollers are cylindrical ones; there is no law of spherical, toroidal, self-aligning, thrust, four-point contact and plain bearings: give their stiffness";

@@ -19,12 +19,26 @@ pub(super) fn seats(
     raw: &RawGearbox,
     (shafts, bearings): (&[GearboxShaft], &[GearboxBearing]),
 ) -> Checked<()> {
+    let fixed = fixed_shaft(s, raw, shafts)?;
     for (table, own) in raw.bearing.iter().zip(bearings) {
         let span = table.get_ref().in_shaft.as_ref().map_or(table.span(), Spanned::span);
         let wrong = |said: String, advice: &str| Err(s.conflict(&span, said, advice));
-        if own.stiffness[5][5] > 0.0 && !shafts[own.shaft].stands {
+        if own.stiffness[5][5] > 0.0 && !shafts[own.shaft].stands && !shafts[own.shaft].fixed {
             let said = format!("\"{}\" holds the turn of \"{}\", which turns", own.name, shafts[own.shaft].name);
-            return wrong(said, "leave the stiffness of that turn out, or let the shaft stand (`stands = true`)");
+            return wrong(
+                said,
+                "leave the stiffness of that turn out, or let the shaft stand (`stands = true`), or be `fixed`",
+            );
+        }
+        if fixed.is_some() && own.in_shaft.is_none() && !own.is_round() {
+            let said = format!(
+                "\"{}\" in the housing is not the same all round, and the housing turns against the carrier",
+                own.name
+            );
+            return wrong(
+                said,
+                "with a `fixed` shaft give x and y one stiffness, and no offset of the seat across the axis",
+            );
         }
         let Some(seat) = own.in_shaft else { continue };
         let [inner, outer] = [own.shaft, seat].map(|shaft| &shafts[shaft]);
@@ -62,31 +76,71 @@ pub(super) fn seats(
             );
         }
     }
-    for (table, (i, own)) in raw.shaft.iter().zip(shafts.iter().enumerate()).filter(|(_, (_, own))| own.stands) {
+    let still = |own: &GearboxShaft| own.stands || own.fixed;
+    for (table, (i, own)) in raw.shaft.iter().zip(shafts.iter().enumerate()).filter(|(_, (_, own))| still(own)) {
         let wrong = |said: String, advice: &str| Err(s.conflict(&table.span(), said, advice));
+        let still = if own.stands { "stands" } else { "is fixed" };
         if own.held {
             return wrong(
-                format!("\"{}\" stands and is held: nothing of it moves", own.name),
+                format!("\"{}\" {still} and is held: nothing of it moves", own.name),
                 "leave it out, with `in_shaft` of the bearings in it",
             );
         }
         let holds = |b: &&GearboxBearing| (b.shaft == i || b.in_shaft == Some(i)) && b.stiffness[5][5] > 0.0;
-        if !bearings.iter().any(|b| holds(&b)) {
+        // Meshes may hold the turn of a carrier beside a fixed shaft.
+        if !(own.stands && fixed.is_some()) && !bearings.iter().any(|b| holds(&b)) {
             return wrong(
-                format!("\"{}\" stands, and nothing holds its turn", own.name),
+                format!("\"{}\" {still}, and nothing holds its turn", own.name),
                 "give one of its bearings `turn_stiffness_nm_per_rad`",
             );
         }
         let on_it = |word: &Word| word.as_ref().is_some_and(|w| *w.get_ref() == own.name);
-        let gears = raw.gear.iter().map(|t| ("a gear is", &t.get_ref().shaft));
-        let torques = raw.torque.iter().map(|t| ("a torque is", &t.get_ref().shaft));
-        let input = raw.input.iter().map(|t| ("the input is", &t.get_ref().shaft));
+        // A carrier that turns in space has loads; a fixed shaft has gears.
+        let gears = raw.gear.iter().filter(|_| own.stands).map(|t| ("a gear is", &t.get_ref().shaft));
+        let loads = own.fixed || fixed.is_none();
+        let torques = raw.torque.iter().filter(|_| loads).map(|t| ("a torque is", &t.get_ref().shaft));
+        let input = raw.input.iter().filter(|_| loads).map(|t| ("the input is", &t.get_ref().shaft));
         if let Some((what, _)) = gears.chain(torques).chain(input).find(|(_, word)| on_it(word)) {
             return wrong(
-                format!("{what} on \"{}\", which stands", own.name),
-                "leave `stands` out, or put it on a shaft that turns; the torque of a carrier is what its bearing holds",
+                format!("{what} on \"{}\", which {still}", own.name),
+                "leave `stands` out, or put it on a shaft that turns; the torque of a carrier is what its bearing holds. With another shaft `fixed` the carrier takes input or load",
             );
         }
     }
     Ok(())
+}
+
+/// The one shaft that is fixed in space, and that nothing is asked for which a turning frame would change.
+fn fixed_shaft(s: &Source<'_>, raw: &RawGearbox, shafts: &[GearboxShaft]) -> Checked<Option<usize>> {
+    let mut all = (0..shafts.len()).filter(|i| shafts[*i].fixed);
+    let Some(first) = all.next() else { return Ok(None) };
+    if let Some(second) = all.next() {
+        let said = format!("\"{}\" and \"{}\" are fixed in space", shafts[first].name, shafts[second].name);
+        return Err(s.conflict(&raw.shaft[second].span(), said, "one shaft is `fixed`: the stage turns around it"));
+    }
+    let wrong = |said: &str, advice: &str| {
+        Err(s.conflict(
+            &raw.shaft[first].span(),
+            format!("\"{}\" is fixed in space {said}", shafts[first].name),
+            advice,
+        ))
+    };
+    if !shafts.iter().any(|own| own.stands) {
+        return wrong("and no carrier stands in its own frame", "give the carrier as a shaft with `stands = true`");
+    }
+    if shafts[first].stands {
+        return wrong("and stands in the frame of the carrier", "a carrier at rest stands: leave `fixed` out");
+    }
+    let moves = [
+        ("[vibration]", raw.vibration.is_some()),
+        ("[motion]", raw.motion.is_some()),
+        ("[housing]", raw.housing.is_some()),
+    ];
+    match moves.into_iter().find(|(_, asked)| *asked) {
+        Some((what, _)) => wrong(
+            &format!("beside {what}, which knows no frame that turns"),
+            "leave it out; or see the stage from its carrier with speeds n - n_c: no `fixed`, the carrier's turn held",
+        ),
+        None => Ok(Some(first)),
+    }
 }

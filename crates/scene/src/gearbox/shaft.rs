@@ -53,6 +53,7 @@ pub(super) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<Gearbo
         density: 1e-12 * given!(s, SHAFT, raw.density_kg_m3)?.unwrap_or_else(|| of(|r| r.density_kg_m3, 7850.0)),
         held: raw.held.as_ref().is_some_and(|h| *h.get_ref()),
         stands: raw.stands.as_ref().is_some_and(|h| *h.get_ref()),
+        fixed: raw.fixed.as_ref().is_some_and(|h| *h.get_ref()),
         name,
     })
 }
