@@ -271,3 +271,35 @@ fn planets_have_room_and_drive() {
     ];
     told(&sun, "planets that mesh with planets are as many of each");
 }
+
+/// With a ring that is fixed in space the carrier takes the load; what a turning frame would change is refused.
+#[test]
+fn a_ring_is_fixed_in_space() {
+    let file = file().with_file_name("planetary_stage_ring_fixed.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let own = Gearbox::parse(&text, &file).unwrap();
+    let ring = own.fixed_shaft().unwrap();
+    assert!(own.shafts[ring].name == "ring" && own.shafts[own.torques[0].shaft].stands);
+    let turn = "turn_stiffness_nm_per_rad = 1e7\n";
+    let cases = [
+        (turn, "", "\"ring\" is fixed, and nothing holds its turn"),
+        ("name = \"sun\"\norigin", "name = \"sun\"\nfixed = true\norigin", "\"sun\" and \"ring\" are fixed in space"),
+        (
+            "name = \"carrier a\"\n",
+            "name = \"carrier a\"\nseat_offset_um = [5.0, 0.0, 0.0]\n",
+            "not the same all round",
+        ),
+        ("[800000.0, 800000.0, 0.0]", "[800000.0, 700000.0, 0.0]", "not the same all round"),
+        ("[analysis]\n", "[vibration]\nfrom_rpm = 500.0\nto_rpm = 900.0\n[analysis]\n", "beside [vibration]"),
+        (
+            "shaft = \"carrier\"\nposition_mm = 0.0",
+            "shaft = \"ring\"\nposition_mm = 0.0",
+            "a torque is on \"ring\", which is fixed",
+        ),
+    ];
+    for (from, to, said) in cases {
+        assert!(text.contains(from), "{from}");
+        let error = Gearbox::parse(&text.replacen(from, to, 1), &file).map(|_| ()).expect_err(to);
+        assert!(error.to_string().contains(said) && error.hint().is_some(), "{to}: {error}");
+    }
+}
