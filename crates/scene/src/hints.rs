@@ -2,7 +2,10 @@
 
 use std::{borrow::Cow, ops::Range};
 
-use crate::units::{in_another_unit, plain};
+use crate::{
+    Quantity,
+    units::{in_another_unit, in_written_unit, own_unit, plain},
+};
 
 /// Hint for a number that is out of its range.
 pub(super) fn of_range(key: &str, allowed: &str, about: Option<&str>) -> String {
@@ -79,7 +82,26 @@ fn number_in(key: &str, written: &str) -> Option<String> {
     let unit = plain.get(number.len()..)?.trim();
     let is_unit =
         unit.starts_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '\u{b0}' | '\u{2032}' | '"' | '\''));
-    is_unit.then(|| format!("the unit is in the key: write `{key} = {number}`"))
+    is_unit.then(|| with_unit(key, (number, unit)))
+}
+
+/// What to write for a number that stands there with a unit.
+fn with_unit(key: &str, (number, unit): (&str, &str)) -> String {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    if Quantity::ALL.iter().any(|quantity| quantity.key() == name) {
+        return format!("it is a text, in quotes: write `{key} = \"{number} {unit}\"`");
+    }
+    let value = number.parse::<f64>().ok();
+    match (value.and_then(|value| Some((value, in_written_unit(key, value, unit)?))), own_unit(key)) {
+        // As it is written, where it stays.
+        (Some((value, meant)), _) if meant.value == value => format!("{}: write `{key} = {number}`", meant.said),
+        (Some((_, meant)), _) => format!("{}: write `{key} = {}`", meant.said, plain(meant.value)),
+        (None, Some("")) => format!("`{key}` has no unit: write a number alone"),
+        (None, Some(own)) => format!("`{key}` is in {own}: write a number in that unit, without it and without quotes"),
+        (None, None) => {
+            format!("the unit is in the name of `{key}`: write a number in that unit, without it and without quotes")
+        }
+    }
 }
 
 /// What of a line stands behind its `=`, without a comment, and the key before it.

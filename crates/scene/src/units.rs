@@ -24,6 +24,99 @@ const UNITS: &[Unit] = &[
     ("_kg", 1e-3, "g", "kg"),
 ];
 
+/// Units that keys name at their ends, and what people write for them. Behind `_per_` nothing but what has it counts.
+const OWN: &[(&str, &[&str])] = &[
+    ("_n_per_mm", &["N/mm"]),
+    ("_kg_m2", &["kg m^2"]),
+    ("_kg_m3", &["kg/m^3"]),
+    ("_deg", &["degrees", "deg", "\u{b0}"]),
+    ("_hz", &["Hz", "1/s"]),
+    ("_kg", &["kg"]),
+    ("_kn", &["kN"]),
+    ("_mm", &["mm"]),
+    ("_mpa", &["MPa", "N/mm^2"]),
+    ("_nm", &["N m"]),
+    ("_rpm", &["1/min", "rpm", "min^-1"]),
+    ("_um", &["um"]),
+    ("_h", &["h"]),
+    ("_n", &["N"]),
+    ("_s", &["s"]),
+];
+
+/// Further units that people write behind a number: the key's own, what is written, and the factor to the own one.
+const WRITTEN: &[(&str, &str, f64)] = &[
+    ("mm", "cm", 10.0),
+    ("mm", "in", 25.4),
+    ("mm", "inch", 25.4),
+    ("um", "nm", 1e-3),
+    ("um", "m", 1e6),
+    ("s", "ms", 1e-3),
+    ("s", "us", 1e-6),
+    ("s", "min", 60.0),
+    ("s", "h", 3600.0),
+    ("h", "min", 1.0 / 60.0),
+    ("h", "d", 24.0),
+    ("Hz", "kHz", 1e3),
+    ("Hz", "rpm", 1.0 / 60.0),
+    ("Hz", "1/min", 1.0 / 60.0),
+    ("1/min", "Hz", 60.0),
+    ("1/min", "1/s", 60.0),
+    ("N", "kN", 1e3),
+    ("kN", "N", 1e-3),
+    ("N m", "kN m", 1e3),
+    ("MPa", "Pa", 1e-6),
+    ("MPa", "kPa", 1e-3),
+    ("MPa", "GPa", 1e3),
+    ("degrees", "'", 1.0 / 60.0),
+];
+
+/// The unit of a key; nothing of one that names none, `None` of one whose unit is not known here.
+pub(crate) fn own_unit(key: &str) -> Option<&'static str> {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let known =
+        OWN.iter().find(|(ending, _)| name.ends_with(ending) && (ending.contains("_per_") || !name.contains("_per_")));
+    match known {
+        Some((_, names)) => names.first().copied(),
+        None if name.contains("_per_") => None,
+        None => Some(""),
+    }
+}
+
+/// A number as it is written behind `key` that has a unit behind it; `None` of a unit that does not lead to the key's own.
+pub(crate) fn in_written_unit(key: &str, value: f64, written: &str) -> Option<OtherUnit> {
+    let plain = |unit: &str| {
+        let signs = [
+            ("\u{b5}", "u"),
+            ("\u{3bc}", "u"),
+            ("\u{b2}", "^2"),
+            ("\u{b3}", "^3"),
+            ("\u{b7}", ""),
+            ("*", ""),
+            (" ", ""),
+        ];
+        signs.iter().fold(unit.to_owned(), |text, (sign, instead)| text.replace(sign, instead))
+    };
+    let (own, wanted) = (own_unit(key)?, plain(written));
+    let is = |unit: &str| plain(unit) == wanted;
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let exact = |factor: f64| format!("{:.12e}", value * factor).parse().unwrap_or(value * factor);
+    let of = |factor: f64, other: &str| {
+        let meant = exact(factor);
+        OtherUnit { value: meant, said: format!("{} are {}", spaced(value, other), spaced(meant, own)) }
+    };
+    let names = OWN.iter().find(|(_, names)| names.first() == Some(&own)).map_or(&[][..], |(_, names)| names);
+    if names.iter().any(|unit| is(unit)) {
+        return Some(OtherUnit { value, said: "the unit is in the key".into() });
+    }
+    let of_key = UNITS.iter().filter(|unit| unit.3 == own && (!own.is_empty() || name.ends_with(unit.0)));
+    let known = of_key.map(|&(_, factor, other, _)| (own, other, factor));
+    let share = ("", "%", 1e-2);
+    let mut all = known.chain(WRITTEN.iter().copied()).chain([share]);
+    let found = all.find(|(unit, other, _)| *unit == own && is(other)).map(|(_, other, factor)| of(factor, other));
+    let is_own = || names.iter().any(|unit| plain(unit).eq_ignore_ascii_case(&wanted));
+    found.or_else(|| is_own().then(|| OtherUnit { value, said: "the unit is in the key".into() }))
+}
+
 /// A number in the unit of its key that was written in another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherUnit {
@@ -81,5 +174,34 @@ mod tests {
         assert_eq!(said("teeth", 3.0, [5.0, 2000.0]), None);
         assert_eq!(said("young_mpa", f64::NAN, [1.0, 1e7]), None);
         assert_eq!(said("poisson", 1e5, [-0.9, 0.499]), None);
+    }
+
+    /// A number with a unit behind it comes to that of the key, or to nothing.
+    #[test]
+    fn a_written_unit_leads_to_that_of_the_key() {
+        for (key, value, unit, wanted) in [
+            ("motion.duration_s", 20.0, "ms", Some(0.02)),
+            ("duration_s", 3.0, "\u{b5}s", Some(3e-6)),
+            ("duration_s", 2.0, "min", Some(120.0)),
+            ("face_width_mm", 2.0, "cm", Some(20.0)),
+            ("face_width_mm", 2.0, "MM", Some(2.0)),
+            ("tip_relief_um", 0.02, "mm", Some(20.0)),
+            ("torque_nm", 150.0, "N\u{b7}m", Some(150.0)),
+            ("torque_nm", 1.5, "kNm", Some(1500.0)),
+            ("torque_nm", 150.0, "lbf ft", None),
+            ("young_mpa", 206.0, "GPa", Some(206_000.0)),
+            ("speed_rpm", 25.0, "Hz", Some(1500.0)),
+            ("speed_rpm", 1500.0, "min^-1", Some(1500.0)),
+            ("helix_angle_deg", 15.0, "\u{b0}", Some(15.0)),
+            ("poisson", 30.0, "%", Some(0.3)),
+            ("error_tolerance", 1.0, "%", Some(0.01)),
+            ("stiffness_n_per_mm", 2.0, "N/um", Some(2000.0)),
+            ("stiffness_n_per_mm", 2.0, "cm", None),
+            ("sliding_mm_per_s", 2.0, "s", None),
+            ("normal_module_mm", 1.0, "%", None),
+        ] {
+            let found = in_written_unit(key, value, unit).map(|other| other.value);
+            assert_eq!(found, wanted, "{key} = {value} {unit}");
+        }
     }
 }

@@ -199,6 +199,12 @@ fn signs_and_units_of_other_programs_are_told() {
         ["normal_module_mm = \"2.5 mm\"", "normal_module_mm = 2.5"],
     );
     refused(
+        &with("normal_module_mm = 2.5", "normal_module_mm = \"0.25 cm\""),
+        "ale-gear: a.toml:7: `normal_module_mm` must be a number, found string \"0.25 cm\"\n\
+         hint: 0.25 cm are 2.5 mm: write `normal_module_mm = 2.5`\n",
+        ["normal_module_mm = \"0.25 cm\"", "normal_module_mm = 2.5"],
+    );
+    refused(
         &with("normal_module_mm = 2.5", "module = 2.5"),
         "ale-gear: a.toml:7: unknown key `module`\nhint: did you mean `normal_module_mm`?\n",
         ["module = 2.5", "normal_module_mm"].map(|w| if w == "module = 2.5" { "module" } else { w }),
