@@ -6,14 +6,16 @@ pub type Tables = fn() -> Vec<(String, Vec<&'static str>)>;
 /// The other kind of machine: what messages call it, and its tables.
 pub type Neighbour = (&'static str, Tables);
 
-/// The nearest of `known` if it is near enough to be meant.
+/// The nearest of `known` if it is near enough to be meant, in small or capital letters.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     // Words of very different length are never alike, and to compare long ones costs the product of their lengths.
     let length = word.chars().count();
+    let small = |word: &str| if word.len() > LONGEST { word.to_owned() } else { word.to_lowercase() };
+    let word = small(word);
     known
         .iter()
         .filter(|k| length <= 2 * k.len() + 1)
-        .map(|&k| (strsim::normalized_damerau_levenshtein(word, k), k))
+        .map(|&k| (strsim::normalized_damerau_levenshtein(&word, &small(k)), k))
         .filter(|&(likeness, _)| likeness >= 0.6)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, k)| k)

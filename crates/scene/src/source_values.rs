@@ -38,12 +38,24 @@ impl Source<'_> {
 
     /// The whole number of `key`, or `default`, within `low..=high`.
     pub fn whole(&self, key: &str, value: &Whole, default: u32, low: u32, high: u32) -> Result<u32, SceneError> {
+        self.whole_within(key, value, default, [low, high], || (self.meaning)(key))
+    }
+
+    /// The whole number of a key, or `default`, within `low..=high`; `about` says what the key means, to a complaint alone.
+    fn whole_within<'a>(
+        &self,
+        key: &str,
+        value: &Whole,
+        default: u32,
+        [low, high]: [u32; 2],
+        about: impl FnOnce() -> Option<&'a str>,
+    ) -> Result<u32, SceneError> {
         let Some(value) = value else { return Ok(default) };
         match u32::try_from(*value.get_ref()) {
             Ok(number) if (low..=high).contains(&number) => Ok(number),
             _ => {
                 let advice = hints::of_number(key, *value.get_ref() as f64, [low, high].map(f64::from));
-                Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), (self.meaning)(key)))
+                Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), about()))
             }
         }
     }
@@ -75,7 +87,8 @@ impl Source<'_> {
     /// The whole number of a key, within the range of its table, or the table's default.
     pub(crate) fn whole_of(&self, table: &Table, key: &str, value: &Whole) -> Result<u32, SceneError> {
         let (low, high, default) = table.whole(key);
-        self.whole(key, value, default.unwrap_or(low), low, high)
+        let about = || table.about(key).or_else(|| (self.meaning)(key));
+        self.whole_within(key, value, default.unwrap_or(low), [low, high], about)
     }
 
     /// The meaning of the word of `key`; the first of `choices` is the default.

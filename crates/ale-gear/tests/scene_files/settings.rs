@@ -75,6 +75,10 @@ fn complaints_name_the_setting() {
              unit is in the key",
         ),
         (
+            "motion.method=leapfrog",
+            "--set motion.method: `method` is \"leapfrog\", allowed is \"energy\" or \"generalised-alpha\" or \"newmark\" or \"dormand-prince\" or \"rk4\"|give `method` a value that is allowed",
+        ),
+        (
             "operation",
             "--set operation: has no `=`|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
         ),
@@ -129,6 +133,10 @@ fn complaints_about_a_gearbox_name_the_setting() {
         (
             "motion.cycles=0",
             "--set motion.cycles: `cycles` is 0, allowed is 1 .. 1000000|give `cycles` a number in 1 .. 1000000",
+        ),
+        (
+            "motion.method=RK4",
+            "--set motion.method: `method` is \"RK4\", allowed is \"energy\" or \"generalised-alpha\" or \"newmark\" or \"dormand-prince\" or \"rk4\"|did you mean \"rk4\"?",
         ),
         (
             "motion.mesh=maped",

@@ -65,11 +65,12 @@ pub fn all_keys() -> Vec<String> {
     all
 }
 
-/// What a key of the scene says, of several of one name the first.
+/// What a key of the scene says; `None` of keys of one name that say different things.
 pub(crate) fn meaning(name: &str) -> Option<&'static str> {
-    let mut found = None;
-    SCENE.walk("", &mut |_, table| found = found.or(table.about(name)));
-    found
+    let mut all = Vec::new();
+    SCENE.walk("", &mut |_, table| all.extend(table.about(name)));
+    all.dedup();
+    if all.len() == 1 { all.pop() } else { None }
 }
 
 /// Every table of the scene file with its keys, the file itself first; a list of tables has brackets about its name.
