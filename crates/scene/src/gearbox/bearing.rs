@@ -86,7 +86,7 @@ fn stiffness(s: &Source<'_>, table: &Spanned<RawBearing>, name: &str) -> Checked
         }
         None => {
             let Some(shifts) = numbers::<3>(s, "stiffness_n_per_mm", &raw.stiffness_n_per_mm, 1e15)? else {
-                let what = "a list for x, y and z, a matrix, or the `type` of a rolling bearing";
+                let what = "a list for x, y and z, a matrix, or the `type` or `designation` of a rolling bearing";
                 return Err(missing(s, table, "[[bearing]]", "stiffness_n_per_mm", what));
             };
             let tilts = numbers::<2>(s, "tilt_stiffness_nm_per_rad", &raw.tilt_stiffness_nm_per_rad, 1e15)?;

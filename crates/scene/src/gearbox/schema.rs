@@ -107,7 +107,7 @@ choices! {
 
 table! {
     /// `[[bearing]]`
-    BEARING, RawBearing: "a bearing between a shaft and the housing, or another shaft: single values, a matrix, or the `type` of a rolling bearing", needed ["shaft", "position_mm"]; {
+    BEARING, RawBearing: "a bearing between a shaft and the housing, or another shaft: single values, a matrix, or the `type` or `designation` of a rolling bearing", needed ["shaft", "position_mm"]; {
         name: text(), "name for tables; default: its place";
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where its middle is, mm from the shaft's z = 0, up to its length";
