@@ -118,7 +118,9 @@ impl MeshInMotion<'_> {
         let mut said = Vec::new();
         // Without coast flanks nothing stops teeth that have parted.
         let backlash_um = 1e3 * pair.backlash() * pair.base_helix_angle().cos();
-        if !self.has_coast_flanks && flanks.largest_gap_um > backlash_um {
+        // Flanks that touch have no gap; digits of a centre distance are no backlash.
+        let backlash_um = if backlash_um < NO_BACKLASH_UM { 0.0 } else { backlash_um };
+        if !self.has_coast_flanks && flanks.largest_gap_um > backlash_um + NO_BACKLASH_UM {
             said.push(remark::gap_beyond_backlash(flanks.largest_gap_um, backlash_um));
         }
         if flanks.flank_coupling_bound_um > COUPLED * self.peak_to_peak_um {
