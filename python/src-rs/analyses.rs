@@ -83,9 +83,9 @@ pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Wat
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
     let progress = watch.begin("search", PhaseWork::Steps(u64::from(plan.evaluations)));
-    let found = optimise(held.models, plan, |count, goal| {
+    let found = optimise(held.models, plan, |which, goal| {
         progress.tick();
-        progress.say(goal.map_or_else(|| format!("evaluation {count}"), |goal| format!("{goal:.4} um")));
+        progress.say(goal.map_or_else(|| which.to_string(), |goal| format!("{goal:.4} um")));
         if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     watch.end();
@@ -109,9 +109,9 @@ pub fn number_optimum(plan: &NumberOptimisation, again: &str, held: Held<'_>, wa
     let progress = watch.begin("search", PhaseWork::Steps(u64::from(plan.evaluations)));
     let lines = CaseLines::new(plan.parameters.len(), plan.outputs().len());
     let (done, beside) = (DoneCases::in_memory(lines, Default::default()), watch.beside());
-    let found = optimise_numbers(plan, held.models, &|| Box::new(beside.beside()), &done, |count, goal| {
+    let found = optimise_numbers(plan, held.models, &|| Box::new(beside.beside()), &done, |which, goal| {
         progress.tick();
-        progress.say(goal.map_or_else(|| format!("evaluation {count}"), |goal| format!("{goal:.6}")));
+        progress.say(goal.map_or_else(|| which.to_string(), |goal| format!("{goal:.6}")));
         if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let optimum = found.map_err(|e| match e {

@@ -18,4 +18,4 @@ mod search;
 
 pub use goal::{Curve, Evaluation, Goal, Limited, Measure, Over};
 pub use rounding::rounded;
-pub use search::{Bounds, Search, SearchResult, Stop, TakenStep};
+pub use search::{Bounds, Evaluated, Search, SearchResult, Stop, TakenStep};

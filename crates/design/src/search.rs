@@ -34,6 +34,27 @@ pub struct TakenStep {
     pub taken: bool,
 }
 
+/// Which design was evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evaluated {
+    /// So many in the search, from 1: its row in the table of steps.
+    Step(usize),
+    /// The values that a machine can be set to.
+    Rounded,
+    /// One of the trade-off.
+    Front,
+}
+
+impl std::fmt::Display for Evaluated {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Step(number) => write!(f, "evaluation {number}"),
+            Self::Rounded => f.write_str("values that a machine can be set to"),
+            Self::Front => f.write_str("trade-off"),
+        }
+    }
+}
+
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]

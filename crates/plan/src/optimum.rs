@@ -7,7 +7,7 @@ use std::{
 };
 
 use analysis::{SharedModels, parallel_map};
-use design::{Curve, Evaluation, Goal, Limited, Measure, Over, Search, SearchResult, rounded};
+use design::{Curve, Evaluated, Evaluation, Goal, Limited, Measure, Over, Search, SearchResult, rounded};
 use scene::optimum::NumberOptimisation;
 
 use crate::{CaseObserver, CaseRow, DoneCases, solve::numbers};
@@ -61,7 +61,7 @@ pub fn goal_unit(plan: &NumberOptimisation) -> String {
 }
 
 /// Searches; `done` keeps each solved design and neighbour, so that a search that is cut short goes on from them, and
-/// `seen` is told of every evaluation: how many there were, and the goal; where it breaks, no more is evaluated.
+/// `seen` is told of every evaluation: which one it is, and the goal; where it breaks, no more is evaluated.
 ///
 /// Derivatives are differences over a thousandth of the range of a parameter. All numbers are those of a case of a plan.
 ///
@@ -72,24 +72,25 @@ pub fn optimise_numbers(
     models: &SharedModels<'_>,
     observer: CaseObserver<'_>,
     done: &DoneCases,
-    mut seen: impl FnMut(usize, Option<f64>) -> ControlFlow<()>,
+    mut seen: impl FnMut(Evaluated, Option<f64>) -> ControlFlow<()>,
 ) -> Result<NumberOptimum, OptimumError> {
     let bounds: Vec<[f64; 2]> = plan.parameters.iter().map(|p| p.bounds).collect();
     let search = Search { goal: goal(), bounds: bounds.clone(), evaluations: plan.evaluations as usize };
     let (mut count, mut goes_on) = (0, true);
-    let mut at = |values: &[f64]| {
+    let mut at = |values: &[f64], is_rounded: bool| {
         if !goes_on {
             return Err(OptimumError::Cancelled);
         }
         let found = evaluate(plan, models, observer, done, (count, values));
         count += 1;
-        goes_on = seen(count, found.as_ref().ok().map(|(e, _)| goal().value(&e.curves))).is_continue();
+        let which = if is_rounded { Evaluated::Rounded } else { Evaluated::Step(count) };
+        goes_on = seen(which, found.as_ref().ok().map(|(e, _)| goal().value(&e.curves))).is_continue();
         found
     };
     // Numbers of each design, the start the first.
     let mut known: Vec<(Vec<f64>, Vec<Vec<f64>>)> = Vec::new();
     let found = search.run(&plan.start(), |values| {
-        let (evaluation, numbers) = at(values)?;
+        let (evaluation, numbers) = at(values, false)?;
         known.push((values.to_vec(), numbers));
         Ok::<_, OptimumError>(evaluation)
     })?;
@@ -98,7 +99,7 @@ pub fn optimise_numbers(
     let values = rounded(&found.values, &grains, &bounds, &found.evaluation, &goal());
     let (evaluation, after) = match known.into_iter().find(|(own, _)| *own == values && values == found.values) {
         Some((_, numbers)) => (found.evaluation.clone(), numbers),
-        None => at(&values)?,
+        None => at(&values, true)?,
     };
     Ok(NumberOptimum { found, values, evaluation, before, after })
 }

@@ -287,7 +287,9 @@ fn example(label: &str) -> &'static str {
         }
         "--design" => "latin-hypercube, sobol and random are known",
         "--samples" => "100 are usual",
-        "--torques" => "write torques of the pinion in N m with commas between them: `--torques 75,150,225`",
+        "--torques" => {
+            "write torques on the driven gear of a pair, or of the first [[torque]] of a gearbox, in N m with commas between them: `--torques 75,150,225`"
+        }
         "--measure" => "peak-to-peak, rms and harmonics are known",
         _ => "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
     }

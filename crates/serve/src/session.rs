@@ -11,7 +11,7 @@ use std::{
 use analysis::{
     AnalysisError, GearCache, Interest, RemarksAtRest, RestRequest, SharedGears, SharedModels, SolvedAtRest,
     lumped::is_lumped,
-    optimum::optimise,
+    optimum::{Evaluated, optimise},
     results::{StaticHeadline, patterns, static_headline},
     solve_at_rest,
 };
@@ -183,7 +183,7 @@ impl<'a> Session<'a> {
         let words = OptimisationWords { parameters: &words, evaluations: EVALUATIONS, ..OptimisationWords::default() };
         let plan = Optimisation::of_scene(self.document(text), &[], &words).map_err(|e| Fault::of_scene(text, &e))?;
         self.fits(&plan.drawn)?;
-        let goes_on = |_: usize, _: Option<f64>| {
+        let goes_on = |_: Evaluated, _: Option<f64>| {
             if (interest.positions)() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
         let found = match optimise(&self.models, &plan, goes_on) {

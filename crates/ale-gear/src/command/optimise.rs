@@ -4,19 +4,25 @@ use std::{ops::ControlFlow, path::PathBuf};
 
 use analysis::{
     NoObserver, PhaseWork, SharedModels,
-    optimum::{Optimised, Optimum, optimise, summarise},
+    optimum::{Evaluated, Optimised, Optimum, optimise, summarise},
     run_phase,
 };
 use plan::{CaseLines, DoneCases, OptimumError, check_numbers, goal_unit, numbers_digest, optimise_numbers};
 use report::optimum_files::{NumberOptimumResult, OptimumResult, passed_limits, write_number_optimum, write_optimum};
 use scene::{
     Document, DocumentKind,
-    optimum::{NumberOptimisation, Optimisation, OptimisationWords},
+    optimum::{DesignParameter, NumberOptimisation, Optimisation, OptimisationWords},
 };
 use store::folder::beside_results;
 
 use super::{Answer, FileWords, cache_args::CacheArgs, overrides::Overrides};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
+
+/// Tells what was evaluated, with its goal.
+fn tell(which: Evaluated, goal: Option<String>) {
+    let goal = goal.unwrap_or_else(|| "no result".into());
+    talk::note(format!("{which}: {}", goal.trim_end()));
+}
 
 /// Words of `ale-gear optimise`.
 #[derive(Debug, clap::Args)]
@@ -159,6 +165,7 @@ impl OptimiseArgs {
             return self.numbers(&document, is_file, quiet);
         }
         let (plan, mut phases) = (self.plan(document)?, Phases::with_bars());
+        plan.parameters.iter().filter_map(DesignParameter::begins_elsewhere).for_each(talk::note);
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let models = SharedModels::new(&cache);
@@ -166,12 +173,9 @@ impl OptimiseArgs {
         let most = u64::from(plan.evaluations) + 1;
         let work = if plan.front > 0 { PhaseWork::Unknown } else { PhaseWork::AtMost(most) };
         let optimum: Optimum = run_phase(&mut phases, "search", work, |progress| {
-            optimise(&models, &plan, |count, goal| {
+            optimise(&models, &plan, |which, goal| {
                 progress.tick();
-                match goal {
-                    Some(goal) => talk::note(format!("evaluation {count}: {goal:.4} um")),
-                    None => talk::note(format!("evaluation {count}: no result")),
-                }
+                tell(which, goal.map(|goal| format!("{goal:.4} um")));
                 ControlFlow::Continue(())
             })
         })?;
@@ -198,6 +202,7 @@ impl OptimiseArgs {
         };
         let checked = check_numbers(&plan.machine(&plan.start())?, &plan.outputs(), &self.file);
         checked.map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
+        plan.parameters.iter().filter_map(DesignParameter::begins_elsewhere).for_each(talk::note);
         let mut phases = Phases::with_bars();
         let results = ResultDirectory::create(&self.out)?;
         let done_file = beside_results(&self.out);
@@ -210,19 +215,11 @@ impl OptimiseArgs {
         let cache = self.cache.open();
         let models = SharedModels::new(&cache);
         let most = u64::from(plan.evaluations) + 1;
-        let (allowed, unit) = (plan.evaluations as usize, goal_unit(&plan));
+        let unit = goal_unit(&plan);
         let optimum = run_phase(&mut phases, "search", PhaseWork::AtMost(most), |progress| {
-            optimise_numbers(&plan, &models, &|| Box::new(NoObserver), &done, |count, goal| {
+            optimise_numbers(&plan, &models, &|| Box::new(NoObserver), &done, |which, goal| {
                 progress.tick();
-                match goal {
-                    Some(goal) if count > allowed => {
-                        talk::note(
-                            format!("values that a machine can be set to: {goal:.6} {unit}").trim_end().to_owned(),
-                        );
-                    }
-                    Some(goal) => talk::note(format!("evaluation {count}: {goal:.6} {unit}").trim_end().to_owned()),
-                    None => talk::note(format!("evaluation {count}: no result")),
-                }
+                tell(which, goal.map(|goal| format!("{goal:.6} {unit}")));
                 ControlFlow::Continue(())
             })
         });

@@ -10,5 +10,6 @@ mod evaluate;
 mod run;
 mod summary;
 
+pub use design::Evaluated;
 pub use run::{FrontPoint, Optimum, optimise};
 pub use summary::{HarrisPoint, Influence, Optimised, TorqueLine, summarise};

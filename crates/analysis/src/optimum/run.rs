@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use design::{Evaluation, Goal, Search, SearchResult, rounded};
+use design::{Evaluated, Evaluation, Goal, Search, SearchResult, rounded};
 use scene::optimum::Optimisation;
 use serde::Serialize;
 
@@ -42,7 +42,7 @@ const FRONT: f64 = 0.1;
 /// Evaluations for each point of the front.
 const FRONT_EVALUATIONS: usize = 8;
 
-/// Searches the optimum; `seen` is told of every evaluation: how many there were, and the goal, um; where it breaks, no
+/// Searches the optimum; `seen` is told of every evaluation: which one it is, and the goal, um; where it breaks, no
 /// more is evaluated.
 ///
 /// # Errors
@@ -50,40 +50,46 @@ const FRONT_EVALUATIONS: usize = 8;
 pub fn optimise(
     models: &SharedModels<'_>,
     plan: &Optimisation,
-    mut seen: impl FnMut(usize, Option<f64>) -> ControlFlow<()>,
+    mut seen: impl FnMut(Evaluated, Option<f64>) -> ControlFlow<()>,
 ) -> Result<Optimum, AnalysisError> {
     let plan = Optimisation { slices: plan.slices.or_else(|| slices(plan)), ..plan.clone() };
     let bounds: Vec<[f64; 2]> = plan.parameters.iter().map(|p| p.bounds).collect();
     let search = Search { goal: plan.goal.clone(), bounds: bounds.clone(), evaluations: plan.evaluations as usize };
     let (mut count, mut goes_on) = (0, true);
-    let mut at = |values: &[f64], anywhere: Option<f64>| {
+    let mut at = |which: Evaluated, values: &[f64], anywhere: Option<f64>| {
         if !goes_on {
             return Err(AnalysisError::Cancelled);
         }
         let limits = PressureLimits { anywhere, at_edges: plan.max_edge_pressure_mpa };
         let found = evaluate(models, &plan, values, limits);
-        count += 1;
-        goes_on = seen(count, found.as_ref().ok().map(|e| plan.goal.value(&e.curves))).is_continue();
+        goes_on = seen(which, found.as_ref().ok().map(|e| plan.goal.value(&e.curves))).is_continue();
         found
     };
-    let found = search.run(&plan.start(), |values| at(values, plan.max_pressure_mpa))?;
+    let found = search.run(&plan.start(), |values| {
+        count += 1;
+        at(Evaluated::Step(count), values, plan.max_pressure_mpa)
+    })?;
     let grains: Vec<f64> = plan.parameters.iter().map(|p| p.grain).collect();
     let values = rounded(&found.values, &grains, &bounds, &found.evaluation, &plan.goal);
-    let evaluation =
-        if values == found.values { found.evaluation.clone() } else { at(&values, plan.max_pressure_mpa)? };
+    let evaluation = if values == found.values {
+        found.evaluation.clone()
+    } else {
+        at(Evaluated::Rounded, &values, plan.max_pressure_mpa)?
+    };
     let mut front = Vec::new();
     if plan.front > 0 {
         // Limits far above make the pressure known and bind nothing.
-        let unbound = at(&found.values, Some(UNBOUND))?;
+        let unbound = at(Evaluated::Front, &found.values, Some(UNBOUND))?;
         let mut last = point(&plan.goal, &unbound, None, &found.values);
         let highest = last.max_pressure_mpa;
-        let at_start = point(&plan.goal, &at(&plan.start(), Some(UNBOUND))?, None, &plan.start()).max_pressure_mpa;
+        let at_start = point(&plan.goal, &at(Evaluated::Front, &plan.start(), Some(UNBOUND))?, None, &plan.start())
+            .max_pressure_mpa;
         let lowest = if at_start < highest { at_start } else { (1.0 - FRONT) * highest };
         front.push(last.clone());
         for k in 1..=plan.front {
             let limit = highest + (lowest - highest) * f64::from(k) / f64::from(plan.front);
             let search = Search { evaluations: FRONT_EVALUATIONS, ..search.clone() };
-            let below = search.run(&last.values, |values| at(values, Some(limit)))?;
+            let below = search.run(&last.values, |values| at(Evaluated::Front, values, Some(limit)))?;
             // Below the least pressure that there is, no further point is one.
             if below.evaluation.over_limits() > HELD {
                 break;

@@ -135,7 +135,8 @@ pub fn optimum_answer(of: &OptimumResult<'_>, cost: Cost) -> Answer {
 
 /// Tables of optimisations without rows, for `docs/outputs.md`.
 pub(crate) fn documented() -> Vec<(&'static str, Table)> {
-    let parameter = DesignParameter { keys: vec!["<key>".to_owned()], bounds: [0.0; 2], start: 0.0, grain: 0.0 };
+    let parameter =
+        DesignParameter { keys: vec!["<key>".to_owned()], bounds: [0.0; 2], start: 0.0, outside: None, grain: 0.0 };
     let parameters = [parameter];
     vec![
         ("steps, reliefs", tables::steps(&parameters, &[], "goal_um")),

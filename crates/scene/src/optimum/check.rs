@@ -149,7 +149,7 @@ pub(super) fn parameters(
                 "start within the bounds",
             ));
         }
-        all[k].start = value;
+        (all[k].start, all[k].outside) = (value, None);
     }
     for word in words(&raw.round) {
         let (k, value) = number_of(s, word, &all)?;
@@ -224,25 +224,21 @@ fn goal(s: &Source<'_>, raw: &RawOptimise) -> Checked<Goal> {
 pub(super) fn default_parameters(scene: &Scene) -> Checked<Vec<DesignParameter>> {
     let pair = scene.gear_pair()?;
     let module = pair.pinion.data().normal_module;
+    // From the scene's own value on, as parameters that are named.
+    let own = |key: String, bounds: [f64; 2], usual: f64, grain: f64| {
+        let stated = scene.number_at(&key);
+        let start = stated.unwrap_or(usual).clamp(bounds[0], bounds[1]);
+        DesignParameter { keys: vec![key], bounds, start, outside: stated.filter(|own| *own != start), grain }
+    };
     let mut all = Vec::new();
     for (name, gear) in [("pinion", &pair.pinion), ("wheel", &pair.wheel)] {
-        let key = |what: &str| vec![format!("{name}.modification.{what}")];
-        all.push(DesignParameter { keys: key("tip_relief_um"), bounds: [0.0, 15.0 * module], start: 0.0, grain: 1.0 });
+        let key = |what: &str| format!("{name}.modification.{what}");
+        all.push(own(key("tip_relief_um"), [0.0, 15.0 * module], 0.0, 1.0));
         let profile = gear.profile();
         let roll = |share: f64| (profile.roll_form() + share * (profile.roll_tip() - profile.roll_form())).to_degrees();
-        all.push(DesignParameter {
-            keys: key("tip_relief_start_roll_deg"),
-            bounds: [roll(0.4), roll(0.9)],
-            start: roll(0.6),
-            grain: 0.1,
-        });
+        all.push(own(key("tip_relief_start_roll_deg"), [roll(0.4), roll(0.9)], roll(0.6), 0.1));
     }
-    all.push(DesignParameter {
-        keys: vec!["pinion.modification.lead_crowning_um".into()],
-        bounds: [0.0, 5.0 * module],
-        start: 0.0,
-        grain: 1.0,
-    });
+    all.push(own("pinion.modification.lead_crowning_um".into(), [0.0, 5.0 * module], 0.0, 1.0));
     Ok(all)
 }
 

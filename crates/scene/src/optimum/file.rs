@@ -53,6 +53,8 @@ pub struct DesignParameter {
     pub bounds: [f64; 2],
     /// Where the search begins.
     pub start: f64,
+    /// Value of the document, where that lies outside of the bounds and the search begins at the nearer one.
+    pub outside: Option<f64>,
     /// What values are whole multiples of in the end; 0: any.
     pub grain: f64,
 }
@@ -70,6 +72,13 @@ impl DesignParameter {
     /// The key that it is named by.
     pub fn name(&self) -> &str {
         self.keys.first().map_or("", String::as_str)
+    }
+
+    /// That the search does not begin at the value of the document.
+    pub fn begins_elsewhere(&self) -> Option<String> {
+        let Self { bounds: [low, high], start, .. } = self;
+        let own = self.outside?;
+        Some(format!("`{}` is {own}, outside of {low} .. {high}: the search begins at {start}", self.name()))
     }
 
     /// A step that moves flanks by some 1e-5 mm, for differences.

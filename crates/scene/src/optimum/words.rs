@@ -36,9 +36,10 @@ pub(super) fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Resu
         return Err("its second bound is not above the first".into());
     }
     let middle = if bounds[0] <= 0.0 && bounds[1] >= 0.0 { 0.0 } else { 0.5 * (bounds[0] + bounds[1]) };
-    let start = known(&keys[0]).unwrap_or(middle).clamp(bounds[0], bounds[1]);
-    let grain = grain(&keys[0]);
-    Ok(DesignParameter { keys, bounds, start, grain })
+    let own = known(&keys[0]).filter(|own| own.is_finite());
+    let start = own.unwrap_or(middle).clamp(bounds[0], bounds[1]);
+    let (grain, outside) = (grain(&keys[0]), own.filter(|own| *own != start));
+    Ok(DesignParameter { keys, bounds, start, outside, grain })
 }
 
 /// What a machine is set to.
