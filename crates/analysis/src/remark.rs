@@ -141,9 +141,9 @@ answer::remarks! {
     work_open(share)
         "energy closes to {share:.1e} of the work that goes through the pair only (asked: 1e-6)",
         "take smaller steps or `method = \"energy\"`";
-    vibration_energy_open(share, limit)
+    vibration_energy_open(share, limit, cure)
         "energy closes to {share:.1e} of the energy of the vibration only (asked: {limit:.0e})",
-        "take smaller steps or `method = \"energy\"`";
+        "{cure}";
     gap_beyond_backlash(gap_um, backlash_um)
         "the gap between the driving flanks reaches {gap_um:.1} um, more than the backlash of {backlash_um:.1} um: the coast flanks would touch",
         "use `flanks = \"both\"`";

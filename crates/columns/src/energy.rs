@@ -13,7 +13,7 @@ impl Rows for EnergyRows {
 }
 
 columns!(EnergyRows, ALL, |(), _| true, {
-    TIME = "time_s" ["s"] "time of the row of `history.csv`, of a gearbox of `motion.csv`", |(), row, _| row.time_s;
+    TIME = "time_s" ["s"] "time of the row of `history.csv`, of a gearbox of `motion.csv`, whose first row is the start; kinetic and elastic energy at the start are kinetic + elastic - supplied - parametric + dissipated - residual of any row", |(), row, _| row.time_s;
     KINETIC = "kinetic_mj" ["mJ"] "kinetic energy", |(), row, _| row.kinetic_mj;
     ELASTIC = "elastic_mj" ["mJ"] "elastic energy of teeth, bearings and modes", |(), row, _| row.elastic_mj;
     SUPPLIED = "supplied_mj" ["mJ"]

@@ -7,10 +7,6 @@ use scene::gearbox::MeshModel;
 use super::motion_remarks::Judged;
 use crate::in_motion::{energy_check, map_checks, map_excess};
 
-/// Energy that steps may add or take by themselves, over that of the vibration.
-const ENERGY: f64 = 1e-3;
-const ENERGY_HINT: &str =
-    "take more `steps_per_cycle`, a smaller `error_tolerance` where one is stated, or `method = \"energy\"`";
 /// Error of the natural frequencies of reduced shafts.
 const FREQUENCIES: f64 = 0.03;
 const FREQUENCIES_HINT: &str = "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept";
@@ -68,8 +64,7 @@ pub(super) fn of_branch(meshes: impl Iterator<Item = Contact>, reduction: &Reduc
 impl Judged<'_> {
     /// Energy, what each mesh is held to, its map or spring, frequencies of the reduced shafts.
     pub fn checks(&self) -> Checks {
-        let open = energy_check(self.moved.energy.open_over_vibration);
-        let energy = Check { bound: ENERGY, hint: ENERGY_HINT, ..open };
+        let energy = energy_check(self.moved.energy.open_over_vibration, self.step_keys());
         let meshes = (0..self.rest.meshes.len()).flat_map(|i| {
             let contact = Contact {
                 model: self.asked.mesh,

@@ -10,8 +10,8 @@ use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
 use super::{at_rest::AtRest, moved::GearboxMotionResult, swings::few_modes};
 use crate::{
     in_motion::{
-        MeshInMotion, MeshRecord, Parting, Resolved, Settled, StepKeys, coarse_steps, no_backlash, speed_changed,
-        steps_of_cycle, work_open,
+        MeshInMotion, MeshRecord, Parting, Resolved, Settled, StepKeys, coarse_steps, energy_remark, no_backlash,
+        speed_changed, steps_of_cycle, work_open,
     },
     motion::{Elasticity, Pace, StepDemand, Vibration},
     remark,
@@ -31,6 +31,11 @@ pub(super) struct Judged<'a> {
 }
 
 impl Judged<'_> {
+    /// Keys that say how long steps are.
+    pub fn step_keys(&self) -> StepKeys {
+        StepKeys::GEARBOX.by(self.asked.error_tolerance)
+    }
+
     /// Whether the coast flanks of a mesh are there to press.
     fn has_coast_flanks(&self, mesh: usize) -> bool {
         self.asked.mesh == MeshModel::Spring || self.rest.reduced[mesh].has_coast_flanks()
@@ -56,6 +61,7 @@ impl Judged<'_> {
         let Self { rest, asked, moved, .. } = *self;
         let mut said: Vec<Remark> =
             self.settled().into_iter().chain(work_open(moved.ledger_residual_over_work)).collect();
+        said.extend(energy_remark(moved.energy.open_over_vibration, self.step_keys()));
         if asked.drive == GearboxDrive::Torque {
             said.extend(speed_changed(moved.reached.mean_input_speed * 60.0 / TAU, asked.speed_rpm));
         }
@@ -156,7 +162,7 @@ impl Judged<'_> {
             cycles,
             steps,
             comes_back: moved.comes_back,
-            keys: StepKeys::GEARBOX.by(asked.error_tolerance),
+            keys: self.step_keys(),
         };
         Ok(record.resolved())
     }

@@ -14,9 +14,9 @@ mod machine;
 mod resolved;
 
 pub use checks::{
-    MOTION_HINT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, map_checks, map_excess,
-    pulling_check,
+    deflection_check_in_motion, excursion_check, force_jump_check, map_checks, map_excess, pulling_check,
 };
+pub(crate) use checks::{energy_check, energy_remark};
 pub use flanks::FlankCertificate;
 pub(crate) use flanks::{BothFlanks, MeshInMotion, NO_BACKLASH_UM, Parting, no_backlash};
 pub(crate) use machine::{Settled, speed_changed, work_open};

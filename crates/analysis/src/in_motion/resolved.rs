@@ -2,6 +2,7 @@
 
 use answer::Remark;
 use integrate::{Scheme, SteadySteps};
+use scene::Scene;
 use study::{order_amplitudes, unresolved_share};
 
 use crate::remark;
@@ -21,19 +22,42 @@ const COARSE: f64 = 12.0;
 pub(crate) struct StepKeys {
     rows: &'static str,
     steps: &'static str,
+    /// What lets energy close.
+    energy: &'static str,
 }
 
 impl StepKeys {
     /// In the scene of a pair.
-    pub const PAIR: Self =
-        Self { rows: "more `steps_per_mesh_cycle`", steps: "more `steps_per_mesh_cycle` or `steps_per_resonance`" };
+    pub const PAIR: Self = Self {
+        rows: "more `steps_per_mesh_cycle`",
+        steps: "more `steps_per_mesh_cycle` or `steps_per_resonance`",
+        energy: "take more `steps_per_mesh_cycle` or `steps_per_resonance`, or `method = \"energy\"`, which keeps energy at any step",
+    };
     /// In the file of a gearbox.
-    pub const GEARBOX: Self =
-        Self { rows: "more `steps_per_cycle`, or fewer `steps_per_row`", steps: "more `steps_per_cycle`" };
+    pub const GEARBOX: Self = Self {
+        rows: "more `steps_per_cycle`, or fewer `steps_per_row`",
+        steps: "more `steps_per_cycle`",
+        energy: "take more `steps_per_cycle`, or `method = \"energy\"`, which keeps energy at any step",
+    };
 
     /// The same where steps follow an error tolerance, if there is one.
     pub fn by(self, tolerance: Option<f64>) -> Self {
-        if tolerance.is_some() { Self { steps: "a smaller `error_tolerance`", ..self } } else { self }
+        let followed = Self {
+            steps: "a smaller `error_tolerance`",
+            energy: "take a smaller `error_tolerance`, or `method = \"energy\"`, which keeps energy at any step",
+            ..self
+        };
+        if tolerance.is_some() { followed } else { self }
+    }
+
+    /// Of a pair's scene with its error tolerance, if it asks for a motion.
+    pub fn of_pair(scene: &Scene) -> Self {
+        Self::PAIR.by(scene.motion.as_ref().and_then(|motion| motion.error_tolerance))
+    }
+
+    /// What lets energy close.
+    pub fn energy(self) -> &'static str {
+        self.energy
     }
 }
 

@@ -371,7 +371,7 @@ fn certificate(
     let survey = &run.survey;
     survey.finite()?;
     let LumpedInputs { scene, pair, .. } = inputs;
-    let mut all = vec![in_motion::energy_check(run.ledger.open_over_vibration())];
+    let mut all = vec![in_motion::energy_check(run.ledger.open_over_vibration(), StepKeys::of_pair(&inputs.scene))];
     all.extend(survey.least_slice_force.map(|least| in_motion::pulling_check(least, survey.largest_force)));
     let errors = survey.errors_um.ends.into_iter();
     if scene.analysis.model.has_reduced_gears() {

@@ -6,13 +6,10 @@ use study::Lyapunov;
 
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
 use crate::{
-    in_motion::{NO_BACKLASH_UM, no_backlash as pair_without_backlash},
+    in_motion::{NO_BACKLASH_UM, StepKeys, energy_remark, no_backlash as pair_without_backlash},
     motion::parting,
     remark,
 };
-
-/// Energy that steps add or take by themselves over that of the vibration, from which on a user should hear of it.
-const OPEN_ENERGY: f64 = 1e-3;
 
 /// Backlash of the model along the line of action, um.
 pub(super) fn backlash_um(inputs: &LumpedInputs) -> f64 {
@@ -67,8 +64,6 @@ pub(super) fn certificate_remarks(motion: &MotionScene, headline: &LumpedHeadlin
             remarks.push(remark::subharmonic(period));
         }
     }
-    if c.energy_open_over_vibration > OPEN_ENERGY {
-        remarks.push(remark::vibration_energy_open(c.energy_open_over_vibration, OPEN_ENERGY));
-    }
+    remarks.extend(energy_remark(c.energy_open_over_vibration, StepKeys::PAIR.by(motion.error_tolerance)));
     remarks
 }

@@ -7,7 +7,7 @@ use scene::Scene;
 use super::MotionHeadline;
 use crate::{
     certificate::Checks,
-    in_motion::{MeshInMotion, deflection_check_in_motion, energy_check, force_jump_check, pulling_check},
+    in_motion::{MeshInMotion, StepKeys, deflection_check_in_motion, energy_check, force_jump_check, pulling_check},
 };
 
 /// What must hold of one speed of a sweep: the same as of a motion alone.
@@ -15,7 +15,7 @@ pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepP
     let force = point.extremes.largest_force.max(point.coast_force);
     Checks::new([
         deflection_check_in_motion(scene, pair, point.transmission_error.iter().copied()),
-        energy_check(point.ledger.open_over_vibration()),
+        energy_check(point.ledger.open_over_vibration(), StepKeys::of_pair(scene)),
         pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
         force_jump_check(point.changes.jump, force),
     ])
@@ -25,7 +25,8 @@ impl MotionHeadline {
     /// Energy, flanks that pull, forces that tooth changes set off, deflection and pressure that linear elasticity holds for.
     pub(super) fn checks(&self, scene: &Scene, pair: &GearPair) -> Checks {
         let of_mesh = self.mesh((scene, pair), true).checks();
-        Checks::new([energy_check(self.certificate.energy_open_over_vibration)]).and(Checks::new(of_mesh))
+        let energy = energy_check(self.certificate.energy_open_over_vibration, StepKeys::of_pair(scene));
+        Checks::new([energy]).and(Checks::new(of_mesh))
     }
 
     /// Its mesh as checks and remarks see it.

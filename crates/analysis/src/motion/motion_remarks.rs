@@ -17,7 +17,7 @@ use crate::{
     AnalysisError,
     error::place_in,
     failure::Failure,
-    in_motion::{Parting, Settled, StepKeys, coarse_steps, no_backlash, speed_changed, work_open},
+    in_motion::{Parting, Settled, StepKeys, coarse_steps, energy_remark, no_backlash, speed_changed, work_open},
     refused::Refusal,
     remark,
     unstable_steps::Steps,
@@ -155,7 +155,8 @@ pub(super) fn of_motion(
     };
     let mesh = headline.mesh((scene, system.pair()), system.has_coast_flanks());
     let own = settled.and_then(Settled::remark).into_iter().chain(work_open(c.ledger_residual_over_work));
-    own.chain(mesh.remarks()).chain(speed).collect()
+    let energy = energy_remark(c.energy_open_over_vibration, StepKeys::PAIR.by(motion.error_tolerance));
+    own.chain(energy).chain(mesh.remarks()).chain(speed).collect()
 }
 
 /// Speeds that have no answer that repeats itself, or none at all; `speeds`: how many there are in all.

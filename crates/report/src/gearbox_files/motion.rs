@@ -136,7 +136,7 @@ described::described! {
         relative_residual: f64,
         /// energy that does not close, as the integrator has it, over the work that goes through the gearbox
         ledger_residual_over_work: f64,
-        /// energy that the steps add or take by themselves over the kinetic and elastic energy that comes and goes in them; the bound is 1e-3
+        /// energy that the steps add or take by themselves over the kinetic and elastic energy that comes and goes in them; the bound is 1e-2
         open_over_vibration: f64,
     }
 

@@ -10,7 +10,7 @@ use study::{StudyError, cycle_statistics, mesh_harmonics};
 use crate::{
     AnalysisError,
     error::in_scene,
-    in_motion::MOTION_HINT,
+    in_motion::StepKeys,
     motion::{
         certificate::checks_of_speed,
         setup::{QuasiStatic, RPM},
@@ -164,7 +164,7 @@ pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), AnalysisEr
     match rows.first() {
         Some(first) if rows.iter().all(failed) => {
             let what = format!("no speed has a result, at {:.0} rpm: {}", first.speed_rpm, first.reason);
-            Err(in_scene(scene)(Refusal::no_result(what, Some(MOTION_HINT.to_owned()))))
+            Err(in_scene(scene)(Refusal::no_result(what, Some(StepKeys::of_pair(scene).energy().to_owned()))))
         }
         _ => Ok(()),
     }
