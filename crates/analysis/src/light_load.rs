@@ -37,9 +37,8 @@ pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError>
     let enough = torque * share / ROUND_OFF * 2.0 * GUESS;
     let refusal = Refusal::input(
         format!(
-            "the torque of {torque:e} N m is too light to be told from none: teeth come nearer by some {approach:.0e} mm, and places \
-             of flanks {:.4} mm apart are known to {places:.0e} mm (round_off_share {share:.1e}, limit {ROUND_OFF:.0e})",
-            pair.centre_distance()
+            "{torque:e} N·m is too small for this pair: the teeth deflect {approach:.0e} mm, and positions of flanks \
+             are known to {places:.0e} mm (round_off_share {share:.2}, limit {ROUND_OFF})",
         ),
         format!("take `torque_nm = {enough:.0e}` or more, or 0 for the unloaded pair"),
     );

@@ -249,7 +249,7 @@ impl SceneError {
             Self::Read { source, .. } if source.kind() == std::io::ErrorKind::InvalidData => {
                 Some("a scene is plain text: save it as UTF-8".into())
             }
-            Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
+            Self::Read { .. } => Some("give the path of a scene file, as seen from this folder".into()),
             Self::Syntax { advice, .. } => {
                 let plain = "a scene is a TOML file: `[table]` lines and `key = value` lines";
                 Some(advice.as_deref().unwrap_or(plain).to_owned())
@@ -290,6 +290,7 @@ fn example(label: &str) -> &'static str {
         "--torques" => {
             "write torques on the driven gear of a pair, or of the first [[torque]] of a gearbox, in N m with commas between them: `--torques 75,150,225`"
         }
+        "--limit" => "write `--limit max_pressure_mpa=1100`: a headline number and its largest value",
         "--measure" => "peak-to-peak, rms and harmonics are known",
         _ => "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
     }

@@ -40,7 +40,7 @@ pub(super) fn found(readers: &str) -> String {
 /// Hint for a value of another type.
 pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
     match expected {
-        "a whole number" if found.starts_with("number") => "write it without a decimal point".into(),
+        "a whole number" if found.starts_with("number") => "write a whole number, without a decimal point".into(),
         "a whole number" if found.starts_with("integer") => {
             "a number of so many digits is none of this program's".into()
         }
@@ -125,10 +125,17 @@ fn of_toml(text: &str, at: &Range<usize>, message: &str) -> Option<&'static str>
     let after_digit = begin.ends_with(|c: char| c.is_ascii_digit());
     let comma = text.get(at.start..).is_some_and(|rest| rest.starts_with(','));
     match message {
+        _ if text.trim_start().starts_with("<?xml") => {
+            Some("this is an XML file; `ale-gear init --rexs FILE` makes a gearbox file of a REXS file")
+        }
         _ if comma && after_digit => Some("write numbers with a decimal point: `2.5`, not `2,5`"),
         "duplicate key" => Some("keep one of them; all keys of a table stand under one heading"),
         m if m.contains("invalid fraction") => Some("write a digit behind the decimal point: `2.0`, not `2.`"),
         m if is_nesting(m) => Some("a key of a scene has four parts at most, and a list of lists is the deepest value"),
+        m if m.contains("key with no value") => Some("write `key = value`, or `[table]` above keys of a table"),
+        m if m.contains("string values must be quoted") => {
+            Some("write a value after `=`: a number without quotes, a text in quotes")
+        }
         m if m.contains("overflow") => Some("numbers end at 1.8e308"),
         m if m.contains("invalid basic string") => Some("end the text with a quote on the same line"),
         m if m.contains("carriage return") => {

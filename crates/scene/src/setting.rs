@@ -32,6 +32,12 @@ impl Setting {
             return Err(complaint(&format!("--set {written}"), "has no `=`"));
         };
         let key = key.trim();
+        if key.is_empty() {
+            return Err(complaint(&format!("--set {written}"), "has no key before `=`"));
+        }
+        if value.trim().is_empty() {
+            return Err(complaint(&format!("--set {key}"), "has no value after `=`"));
+        }
         Self::labelled(format!("--set {key}"), key, value.trim())
     }
 

@@ -39,7 +39,7 @@ fn a_load_without_digits_is_refused() {
     let scene = include_str!("../../data/found/light_load.toml");
     let (status, said) = run(scene);
     assert_eq!(status, Some(2), "{said}");
-    assert!(said.contains("is too light to be told from none") && said.contains("round_off_share"), "{said}");
+    assert!(said.contains("is too small for this pair") && said.contains("round_off_share"), "{said}");
     let enough = said.split("`torque_nm = ").nth(1).and_then(|rest| rest.split('`').next()).unwrap();
     let (status, said) = run(&scene.replace("torque_nm = 0.000000001", &format!("torque_nm = {enough}")));
     assert_eq!(status, Some(0), "{enough} N m: {said}");

@@ -167,7 +167,7 @@ fn a_wrong_type_names_both() {
     );
     says(
         &with("teeth = 30", "teeth = 30.0"),
-        "ale-gear: a.toml:2: `teeth` must be a whole number, found number 30.0\nhint: write it without a decimal point\n",
+        "ale-gear: a.toml:2: `teeth` must be a whole number, found number 30.0\nhint: write a whole number, without a decimal point\n",
     );
     says(
         &with("model = \"iso\"", "model = 3"),
@@ -491,7 +491,7 @@ fn habits_from_elsewhere_are_put_right() {
         &with("normal_module_mm = 3.0", "normal_module_mm = 3,0"),
         "write numbers with a decimal point: `2.5`, not `2,5`\n",
     );
-    hint(&with("teeth = 30", "teeth = 30.5"), "write it without a decimal point\n");
+    hint(&with("teeth = 30", "teeth = 30.5"), "write a whole number, without a decimal point\n");
     hint(&with("teeth = 30", "teeth = \"30\""), "write numbers without quotes");
     hint(
         &with("torque_nm = 150.0", "torque_nm = -150.0"),
