@@ -65,7 +65,8 @@ pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
         }
     }
     let mut drawn: BTreeMap<&str, usize> = BTreeMap::new();
-    for o in overlays.iter().filter(|o| !of_pair(o)) {
+    // A pattern over a flank is a field over two coordinates, not a curve.
+    for o in overlays.iter().filter(|o| !of_pair(o) && o.over != ROLL_ANGLE) {
         let count = drawn.entry(&o.table).or_default();
         *count += 1;
         if *count <= MOST_CHARTS {
@@ -78,6 +79,8 @@ pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
 
 /// Abscissa of sweeps.
 const SPEED: &str = "speed_rpm";
+/// First coordinate of contact patterns.
+const ROLL_ANGLE: &str = "roll_angle_deg";
 /// Rows of a pair over phase or time.
 const HISTORY: &str = "history";
 
