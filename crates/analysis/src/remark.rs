@@ -168,6 +168,9 @@ answer::remarks! {
     inertia_not_judged()
         "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed says so",
         "";
+    whole_cycles(cycles, lasts_s, duration_s)
+        "whole mesh cycles are run: {cycles}, which last {lasts_s:.4e} s where {duration_s:?} s were asked for",
+        "";
     run_up_torque(duration_s, inertia_torque_nm, place, share_percent, load_torque_nm, cure)
         "the speed changes within {duration_s} s: that takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
         "{cure}";

@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use integrate::StepLimit;
 
+use crate::refused::Refusal;
+
 /// Most steps that the scene's keys take.
 const MOST: f64 = 100_000.0;
 /// Share of the limit that the advice makes use of: tangents grow a little on the way.
@@ -14,10 +16,20 @@ const WITHIN: f64 = 0.9;
 pub struct Steps {
     /// Length, s.
     pub step: f64,
-    /// Mesh frequency there, Hz.
-    pub mesh_hz: f64,
-    /// Mesh resonance that `steps_per_resonance` counts by, Hz; 0: none.
-    pub resonance_hz: f64,
+    /// Keys that say how many steps there are, each with the frequency (Hz) whose periods they divide; 0: none.
+    pub keys: [(&'static str, f64); 2],
+}
+
+impl Steps {
+    /// Of a pair: the mesh frequency there, and the mesh resonance that `steps_per_resonance` counts by, Hz; 0: none.
+    pub fn of_pair(step: f64, mesh_hz: f64, resonance_hz: f64) -> Self {
+        Self { step, keys: [("steps_per_resonance", resonance_hz), ("steps_per_mesh_cycle", mesh_hz)] }
+    }
+
+    /// Of a gearbox: the frequency of its fastest mesh there, Hz.
+    pub fn of_gearbox(step: f64, mesh_hz: f64) -> Self {
+        Self { step, keys: [("steps_per_cycle", mesh_hz), ("", 0.0)] }
+    }
 }
 
 /// Steps beyond the stability limit of an explicit method.
@@ -42,12 +54,22 @@ impl std::fmt::Display for UnstableSteps {
 }
 
 impl UnstableSteps {
+    /// The steps where an explicit method does not bear them; `None`: it does.
+    pub fn of(steps: Steps, limit: StepLimit) -> Option<Self> {
+        (steps.step > limit.step).then_some(Self { steps, limit })
+    }
+
+    /// What is refused.
+    pub fn refusal(&self) -> Refusal {
+        Refusal::no_result(self.to_string(), Some(self.hint()))
+    }
+
     /// Keys with the numbers that would do, as far as they take them.
     pub fn hint(&self) -> String {
         let Self { steps, limit } = self;
         let needed = |hz: f64| (1.0 / (WITHIN * limit.step * hz)).ceil();
-        let keys = [("steps_per_resonance", steps.resonance_hz), ("steps_per_mesh_cycle", steps.mesh_hz)];
-        let would_do: Vec<String> = keys
+        let would_do: Vec<String> = steps
+            .keys
             .iter()
             .filter(|(_, hz)| *hz > 0.0 && needed(*hz) <= MOST)
             .map(|(key, hz)| format!("`{key} = {:.0}`", needed(*hz)))

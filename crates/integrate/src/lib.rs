@@ -22,6 +22,7 @@ mod stability;
 mod state;
 mod stepper;
 mod sweep;
+mod whole_cycles;
 
 pub use course::{
     Ahead, Checkpoint, Compared, Counts, Course, CycleTimes, EvenRows, Follower, Goal, Method, OnlyRows, Resumable,
@@ -38,3 +39,4 @@ pub use scheme::{Scheme, SteadySteps, StepControl};
 pub use stability::{StepLimit, Stiffest};
 pub use state::State;
 pub use sweep::{SweepDirection, sweep};
+pub use whole_cycles::whole_cycles;

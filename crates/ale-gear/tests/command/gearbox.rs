@@ -418,6 +418,25 @@ fn mistakes_in_a_gearbox_are_told_at_once() {
     );
 }
 
+/// Steps beyond what an explicit method bears are refused of a gearbox as of a pair, and the number that is named does.
+#[test]
+fn unstable_steps_of_a_gearbox_are_refused() {
+    let scratch = two_stages();
+    let run = |steps: &str| {
+        let set = [("motion.method", "\"rk4\""), ("motion.steps_per_cycle", steps), ("motion.cycles", "4")];
+        let words = set.iter().flat_map(|(key, value)| ["--set".to_owned(), format!("{key}={value}")]);
+        let first = ["run", "two_stages.toml", "--out", "o", "--no-view"].map(str::to_owned);
+        scratch.ale_gear(first.into_iter().chain(words))
+    };
+    let short = run("8");
+    assert_eq!(short.code, Some(2), "{}", short.stderr);
+    assert!(short.stderr.contains("is too long for the explicit method"), "{}", short.stderr);
+    let named = short.stderr.split_once("hint: `steps_per_cycle = ").and_then(|(_, rest)| rest.split_once('`'));
+    let (steps, _) = named.unwrap_or_else(|| panic!("{}", short.stderr));
+    let enough = run(steps);
+    assert_eq!(enough.code, Some(0), "{steps} steps: {}", enough.stderr);
+}
+
 /// `init --of-pair` writes the gearbox of two held shafts that a pair is the short form of: position by position the same
 /// transmission error, whichever gear drives and whichever way.
 #[test]

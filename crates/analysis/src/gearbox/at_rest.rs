@@ -68,14 +68,15 @@ impl AtRest<'_> {
         1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle))
     }
 
-    /// Given speed of the input: constant, or a ramp over all cycles.
+    /// Given speed of the input: constant, or a ramp over the length that is given, else over all cycles.
     pub fn nominal(&self, asked: &GearboxMotion) -> Speed {
         let from = asked.speed_rpm * TAU / 60.0;
         let Some(to_rpm) = asked.to_speed_rpm else { return Speed::Constant(from) };
         let to = to_rpm * TAU / 60.0;
         // The mean speed of the smooth step is that of both ends.
         let turned = f64::from(asked.cycles) / self.fastest(1.0);
-        Speed::Ramp { from, to, start: 0.0, duration: turned / (0.5 * (from + to)) }
+        let duration = asked.duration.unwrap_or(turned / (0.5 * (from + to)));
+        Speed::Ramp { from, to, start: 0.0, duration }
     }
 
     /// Torque of all loads at the input by the numbers of teeth, N mm.

@@ -27,11 +27,12 @@ use super::{
 };
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
-    in_motion::FlankCertificate,
+    in_motion::{FlankCertificate, stretched},
     motion::{Elasticity, EnergyRow, QuasiStatic, RunUp, RunUpCycle, window},
     run_phase,
     run_up::RunUpTorque,
     unless_cancelled,
+    unstable_steps::{Steps, UnstableSteps},
 };
 
 /// Highest frequency of the shafts over that of the fastest mesh, where none is stated.
@@ -115,6 +116,28 @@ pub(super) fn ready(
     Ok(Ready { mechanism, start, stiffness, damping, cycles, resonances, map_errors, map_remarks })
 }
 
+/// Refuses steps of given length that are too long for an explicit method; `mechanism` has modal damping by its start.
+///
+/// # Errors
+/// [`AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
+pub(super) fn refuse_unstable(
+    rest: &AtRest<'_>,
+    asked: &GearboxMotion,
+    mechanism: &mut GearboxMechanism,
+) -> Result<(), AnalysisError> {
+    if asked.error_tolerance.is_some() || !asked.scheme.is_explicit() {
+        return Ok(());
+    }
+    let limit = mechanism.stable_step(asked.scheme).map_err(AnalysisError::from);
+    let Some(limit) = limit.map_err(|e| e.in_file(&rest.file.file))? else { return Ok(()) };
+    let step = rest.step(asked);
+    let steps = Steps::of_gearbox(step, 1.0 / (step * f64::from(asked.steps_per_cycle)));
+    match UnstableSteps::of(steps, limit) {
+        Some(unstable) => Err(AnalysisError::from(unstable.refusal()).in_file(&rest.file.file)),
+        None => Ok(()),
+    }
+}
+
 /// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
 pub(super) fn run(
     rest: &AtRest<'_>,
@@ -132,6 +155,7 @@ pub(super) fn run(
     let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
     let Ready { mut mechanism, start, stiffness, damping, cycles, resonances, map_errors, map_remarks } =
         ready(rest, asked, (drive, fastest), observer)?;
+    refuse_unstable(rest, asked, &mut mechanism)?;
     let run_up = match drive {
         Drive::Speed(speed) | Drive::Balanced(speed) => {
             RunUpTorque::new(speed, (mechanism.driven_inertia(), 1.0), rest.load_at_input())
@@ -139,6 +163,7 @@ pub(super) fn run(
         Drive::Torque { .. } => None,
     };
     let plan = rest.plan(asked);
+    let longer = stretched(asked.duration, plan.cycles, mechanism.time_of_cycles(plan.cycles as f64));
     let (from, rows) = span.from.map_or_else(Default::default, |(from, rows)| (Some(from), rows));
     sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
     let mut goal = mechanism.goal(&start, &plan).map_err(failed)?;
@@ -223,7 +248,7 @@ pub(super) fn run(
         periodicity: found,
         run_up,
         checks: Checks::default(),
-        remarks: map_remarks,
+        remarks: map_remarks.into_iter().chain(longer).collect(),
     };
     // What was stopped on the way is gone on with before it is judged.
     if stopped.is_none() {

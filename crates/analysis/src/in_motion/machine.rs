@@ -7,12 +7,20 @@ use crate::remark;
 
 /// Change of the mean speed over that of the start from which on a user should hear of it.
 const SPEED: f64 = 0.01;
+/// Length beyond what was asked for, over that, likewise.
+const STRETCH: f64 = 0.01;
 /// Energy that does not close, over the work that goes through the machine, likewise.
 const OPEN_WORK: f64 = 1e-6;
 
 /// The mean speed of an input that a torque drives, where it is another one than that of the start; both in 1/min.
 pub(crate) fn speed_changed(mean_rpm: f64, start_rpm: f64) -> Option<Remark> {
     ((mean_rpm / start_rpm - 1.0).abs() > SPEED).then(|| remark::speed_has_changed(mean_rpm, start_rpm))
+}
+
+/// A motion of a given length (s) that goes on to the end of its last mesh cycle; `lasts`: s, where it is known.
+pub(crate) fn stretched(asked: Option<f64>, cycles: u64, lasts: Option<f64>) -> Option<Remark> {
+    let (asked, lasts) = (asked?, lasts?);
+    (lasts > (1.0 + STRETCH) * asked).then(|| remark::whole_cycles(cycles, lasts, asked))
 }
 
 /// Energy that does not close, over the work that goes through the machine.

@@ -19,5 +19,5 @@ pub use checks::{
 pub(crate) use checks::{energy_check, energy_remark};
 pub use flanks::FlankCertificate;
 pub(crate) use flanks::{BothFlanks, MeshInMotion, NO_BACKLASH_UM, Parting, no_backlash};
-pub(crate) use machine::{Settled, speed_changed, work_open};
+pub(crate) use machine::{Settled, speed_changed, stretched, work_open};
 pub(crate) use resolved::{MeshRecord, Resolved, StepKeys, coarse_steps, steps_of_cycle};

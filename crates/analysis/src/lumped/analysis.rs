@@ -26,7 +26,7 @@ use crate::{
     error::in_scene,
     facts::{Resolution, RunInfo},
     gears,
-    in_motion::{self, MeshRecord, StepKeys, coarse_steps, steps_of_cycle},
+    in_motion::{self, MeshRecord, StepKeys, coarse_steps, steps_of_cycle, stretched},
     inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
     options, plausible,
@@ -250,6 +250,7 @@ fn result(
     headline.ramp = run_up.as_ref().and_then(RunUp::headline);
     remarks.extend(certificate_remarks(motion, &headline));
     remarks.extend(inputs.remarks_of(motion, &headline));
+    remarks.extend(stretched(motion.duration_s, run.cycles, Some(run.cycles as f64 / frequencies.mesh_hz)));
     let whole = window(run.periodicity, motion.periodic_tolerance.unwrap_or(1e-6), run.cycles);
     if motion.ramp.is_none() {
         let (samples, cycles) = (&judged.dte_um[..], run.judged as f64);
@@ -355,7 +356,8 @@ pub(super) fn refuse_unstable(
     let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
     let limit = stable_step(model, motion, mesh_hz).map_err(in_scene(scene))?;
     let Some(limit) = limit else { return Ok(()) };
-    motion::refuse_unstable(scene, &limit, &motion::Steps { step: frequencies.step(motion), mesh_hz, resonance_hz })
+    let steps = motion::Steps::of_pair(frequencies.step(motion), mesh_hz, resonance_hz);
+    motion::refuse_unstable(scene, limit, steps)
 }
 
 /// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,

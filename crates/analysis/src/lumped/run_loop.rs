@@ -6,7 +6,7 @@ use answer::RowStore;
 use gearbox::GearboxError;
 use integrate::{
     Ahead, Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, Periodicity, Row, RowPlace,
-    Settle, State, StepControl, Stop, Timetable,
+    Settle, State, StepControl, Stop, Timetable, whole_cycles,
 };
 use periodic::Shooting;
 use scene::{Analysis, MotionScene, Run, Scene};
@@ -97,7 +97,7 @@ fn cycles(scene: &Scene, motion: &MotionScene, mesh_frequency_hz: f64) -> u64 {
     let Analysis { cycles, .. } = scene.analysis;
     let ramp = motion.ramp.map(|r| r.before_s + r.duration_s + r.after_s);
     // A float beyond the range becomes its end.
-    motion.duration_s.or(ramp).map_or(u64::from(cycles), |t| (t * mesh_frequency_hz).ceil().max(1.0) as u64)
+    motion.duration_s.or(ramp).map_or(u64::from(cycles), |t| whole_cycles(t * mesh_frequency_hz) as u64)
 }
 
 /// A run of a model, from a state at the beginning of a mesh cycle, else from rest under the load.

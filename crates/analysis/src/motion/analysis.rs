@@ -8,7 +8,7 @@ use gearbox::motion::PairModel;
 use geometry::GearPair;
 use integrate::{Periodicity, SteadySteps};
 use mesh::Mesh;
-use scene::{MotionScene, Scene};
+use scene::{MotionScene, Run, Scene};
 use study::Window;
 
 use super::{
@@ -26,7 +26,7 @@ use crate::{
     error::{in_scene, unasked},
     facts::RunInfo,
     failure::Failure,
-    in_motion::{MeshRecord, StepKeys, steps_of_cycle},
+    in_motion::{MeshRecord, StepKeys, steps_of_cycle, stretched},
     inputs::resolved_scene,
     refused::Refusal,
     results::{GearPattern, root_stress_remarks},
@@ -337,6 +337,8 @@ fn remarks_of(
     wall_s: f64,
 ) -> Vec<Remark> {
     let mut all = prepared.remarks.clone();
+    let asked = motion.duration_s.filter(|_| motion.run == Run::Span);
+    all.extend(stretched(asked, headline.cycles, prepared.system.time_of_cycles(headline.cycles as f64)));
     all.extend(motion_remarks::of_motion((scene, motion), prepared, headline));
     let resonance = prepared.system.mesh_resonance();
     let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };

@@ -8,7 +8,7 @@ use gearbox::{
     GearboxError,
     motion::{GearboxMechanism, GearboxMemory, PairModel, PairMotion, compared, shoot},
 };
-use integrate::{Checkpoint, Course, Follower, Goal, Row, Settle, Stage};
+use integrate::{Checkpoint, Course, Follower, Goal, Row, Settle, Stage, whole_cycles};
 use periodic::Shot;
 use scene::{MotionScene, RampScene, Run, Scene};
 
@@ -21,13 +21,9 @@ use crate::{
 /// Difference over a mesh cycle that counts as none, where a scene states no other.
 const TOLERANCE: f64 = 1e-6;
 
-/// Share of a mesh cycle that is none: round-off of the angle turned.
-const NO_CYCLE: f64 = 1e-9;
-
 /// Mesh cycles of a ramp with what is before and after it: until its last speed is reached.
 pub(super) fn ramp_cycles(ramp: RampScene, pair: &PairModel) -> u64 {
-    let turned = pair.cycles_until(ramp.before_s + ramp.duration_s + ramp.after_s);
-    (turned - NO_CYCLE).ceil().max(1.0) as u64
+    whole_cycles(pair.cycles_until(ramp.before_s + ramp.duration_s + ramp.after_s)) as u64
 }
 
 /// What a scene asks of its motion.
@@ -40,7 +36,7 @@ fn goal(
     let tolerance = motion.periodic_tolerance.filter(|_| settles).unwrap_or(TOLERANCE);
     let cycles = match (motion.run, motion.ramp, motion.duration_s) {
         (Run::Ramp, Some(ramp), _) => ramp_cycles(ramp, pair),
-        (_, _, Some(end)) => (pair.cycles_until(end) + NO_CYCLE).floor().max(1.0) as u64,
+        (_, _, Some(end)) => whole_cycles(pair.cycles_until(end)) as u64,
         (_, _, None) => u64::from(scene.analysis.cycles),
     };
     let settle = settles.then(|| Settle { tolerance, most: most(motion) });

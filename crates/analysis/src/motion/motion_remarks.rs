@@ -2,7 +2,7 @@
 
 use answer::Remark;
 use dynamics::Drive;
-use gearbox::motion::{PairModel, stable_step};
+use gearbox::motion::PairModel;
 use integrate::Periodicity;
 use ltca::StaticError;
 use scene::{Flanks, MotionScene, Run, Scene};
@@ -74,12 +74,13 @@ pub(super) fn unstable(scene: &Scene, prepared: &PreparedMotion) -> Result<(), F
     if times.tolerance.is_some() || !times.scheme.is_explicit() {
         return Ok(());
     }
-    let limit = stable_step(system, times.scheme).map_err(|e| failure(scene, e.into()))?;
+    let limit = system.machine().and_then(|mut machine| machine.stable_step(times.scheme));
+    let limit = limit.map_err(|e| failure(scene, e.into()))?;
     let Some(limit) = limit else { return Ok(()) };
     let longest = longest_cycle(scene, system);
     let step = times.step(longest);
-    let steps = Steps { step, mesh_hz: 1.0 / longest, resonance_hz: fastest_hz(system) };
-    Ok(refuse_unstable(scene, &limit, &steps)?)
+    let steps = Steps::of_pair(step, 1.0 / longest, fastest_hz(system));
+    Ok(refuse_unstable(scene, limit, steps)?)
 }
 
 /// Duration of the longest mesh cycle of a run, s: the slowest one.

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use gearbox::{GearboxError, motion::stable_step};
+use gearbox::GearboxError;
 use integrate::{Integrator, Scheme, State, StepControl, StepLimit};
 
 use scene::Scene;
@@ -127,7 +127,7 @@ impl<'a> Bench<'a> {
         let speed = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
         let mut limits = Vec::new();
         for (_, scheme) in METHODS {
-            limits.extend(stable_step(&prepared.system, scheme)?.map(|limit| (scheme, limit)));
+            limits.extend(prepared.system.machine()?.stable_step(scheme)?.map(|limit| (scheme, limit)));
         }
         Ok(Self { prepared, start, period: 1.0 / speed, limits })
     }

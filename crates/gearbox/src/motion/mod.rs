@@ -9,10 +9,11 @@
 //! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
 //! | `pair`, `pair_model` | a pair alone: two rigid gears and one mesh; what it is before it moves |
-//! | `pair_run`, `pair_sweep`, `stable_step` | mesh cycle by mesh cycle, speed by speed; how long explicit steps may be |
+//! | `pair_run`, `pair_sweep` | mesh cycle by mesh cycle, speed by speed |
 //! | `times` | cycles of the fastest mesh, with their rows and steps |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
-//! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
+//! | `start`, `stable_step` | from equilibrium on; how long explicit steps may be |
+//! | `plan`, `run`, `memory` | row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
 //! | `branch`, `speed_family` | periodic motions over the speed, stable and unstable |
 //! | `instant`, `energy` | what is read off |
@@ -74,7 +75,6 @@ pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
 pub use run::{FlankCourse, GearboxCheckpoint, GearboxCourse, GearboxRun};
 pub use spring_mesh::SpringMesh;
-pub use stable_step::stable_step;
 pub use tilting_spring::TiltingSpring;
 pub use times::{CycleSteps, MotionTimes};
 pub use varying_torques::TorqueMemory;

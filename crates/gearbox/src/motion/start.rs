@@ -137,6 +137,19 @@ impl GearboxMechanism {
         self.standing((angle, time, self.acceleration(time)), from)
     }
 
+    /// Equilibrium where the nominal motion is at a time (s).
+    ///
+    /// # Errors
+    /// As of [`Self::start`].
+    pub(super) fn standing_in_motion(
+        &mut self,
+        time: f64,
+        from: Option<&DVector<f64>>,
+    ) -> Result<DVector<f64>, GearboxError> {
+        let [angle, _] = self.nominal_turn(time);
+        self.standing((angle, time, self.acceleration(time)), from)
+    }
+
     /// Equilibrium with the input turned by an angle (rad about +z), under the loads of a time (s) and an acceleration of the
     /// input (rad/s^2 about +z); the turn itself is left at 0.
     fn standing(

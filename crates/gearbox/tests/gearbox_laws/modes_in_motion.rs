@@ -12,7 +12,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use gearbox::motion::{
-    CycleSteps, GearboxMechanism, MotionTimes, PairModel, PairMotion, instants, run_to_steady, shoot, stable_step,
+    CycleSteps, GearboxMechanism, MotionTimes, PairModel, PairMotion, instants, run_to_steady, shoot,
 };
 use geometry::{Gear, GearData, GearPair};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
@@ -288,7 +288,8 @@ fn modes_take_their_momentum_from_the_whole_rotation() {
     };
     let offs = std::iter::zip(of(Drive::Balanced(Speed::Constant(speed))), of(given)).map(|(balanced, given)| {
         let fastest = [&balanced, &given].map(|model| {
-            let limit = stable_step(model, Scheme::DormandPrince).unwrap_or_else(|e| panic!("{e}"));
+            let limit = model.machine().and_then(|mut machine| machine.stable_step(Scheme::DormandPrince));
+            let limit = limit.unwrap_or_else(|e| panic!("{e}"));
             limit.map_or(0.0, |limit| limit.rate)
         });
         let frequencies = (fastest[1] / fastest[0] - 1.0).abs();

@@ -52,6 +52,33 @@ fn peak_to_peak(of: &[[f64; 2]], mesh: usize) -> f64 {
     ends[1] - ends[0]
 }
 
+/// A train knows the steps that explicit methods bear: with steps just within the limit none is divided, beyond it some are,
+/// and having asked changes no bit of the motion.
+#[test]
+fn a_train_knows_the_steps_that_explicit_methods_bear() {
+    for scheme in [Scheme::RungeKutta4, Scheme::DormandPrince] {
+        let mut mechanism = train(SPEED, Sense::Ccw, 0.0);
+        let start = mechanism.start(0.05).unwrap();
+        let limit = mechanism.stable_step(scheme).unwrap().unwrap();
+        let period = mechanism.time_of_cycles(1.0).unwrap();
+        let at_limit = period / limit.step;
+        let moved = |share: f64| {
+            let steps = (at_limit / share / 4.0).round().max(1.0) as u64 * 4;
+            run(SPEED, |plan| (plan.scheme, plan.steps_per_cycle) = (scheme, steps), 4)
+        };
+        let [within, beyond] = [0.95, 1.3].map(|share| moved(share).1.divided);
+        println!("{scheme:?}: {at_limit:.2} steps a cycle at the limit; {within} divided within, {beyond} beyond");
+        assert!(within == 0 && beyond > 0, "{scheme:?}: {within} steps divided within the limit, {beyond} beyond");
+        let plan = MotionPlan { scheme, steps_per_cycle: (at_limit / 0.95 / 4.0).round() as u64 * 4, ..plan(4) };
+        let mut rows = Vec::new();
+        mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
+        assert!(errors(&rows) == errors(&moved(0.95).0), "{scheme:?}: bits of the motion go with having asked");
+    }
+    let mut mechanism = train(SPEED, Sense::Ccw, 0.0);
+    mechanism.start(0.05).unwrap();
+    assert_eq!(mechanism.stable_step(Scheme::Energy).unwrap(), None);
+}
+
 /// A settled train of two stages comes back after the common period of its meshes; after a cycle of the first mesh alone it
 /// does not, and from the equilibrium on it has not settled.
 #[test]

@@ -4,10 +4,7 @@
 use std::sync::OnceLock;
 
 use fem::ElementOptions;
-use gearbox::{
-    GearboxError,
-    motion::{GearboxMechanism, stable_step},
-};
+use gearbox::{GearboxError, motion::GearboxMechanism};
 use integrate::{Integrator, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
 use testing::{
@@ -180,7 +177,8 @@ fn explicit_methods_hold_up_to_their_limit_and_no_farther() {
     let system = pair.system(frequency, |_| ());
     let wanted = swing(Scheme::GeneralisedAlpha { rho: 0.8 }, 128).unwrap_or_else(|e| panic!("{e}"));
     for scheme in [Scheme::RungeKutta4, Scheme::DormandPrince] {
-        let limit = stable_step(&system, scheme).unwrap_or_else(|e| panic!("{e}")).unwrap();
+        let limit = system.machine().and_then(|mut machine| machine.stable_step(scheme));
+        let limit = limit.unwrap_or_else(|e| panic!("{e}")).unwrap();
         let at_limit = 1.0 / (frequency * limit.step);
         let [below, beyond] = [(at_limit / 0.95).ceil(), (at_limit / 1.1).floor()].map(|n| {
             let found = swing(scheme, n as usize).unwrap_or_else(|e| {

@@ -1,6 +1,6 @@
 //! `[motion]` of a gearbox file: how the gearbox runs in time.
 
-use integrate::Scheme;
+use integrate::{Scheme, whole_cycles};
 use toml::Spanned;
 
 use super::{
@@ -29,8 +29,10 @@ pub struct GearboxMotion {
     pub input_torque: Option<f64>,
     /// What stands for the meshes.
     pub mesh: MeshModel,
-    /// Cycles of the fastest mesh.
+    /// Cycles of the fastest mesh, whole ones of `duration` where that is given.
     pub cycles: u32,
+    /// Length of the motion, s, if it is given: of a run-up, how long the speed changes.
+    pub duration: Option<f64>,
     /// Steps a cycle of the fastest mesh.
     pub steps_per_cycle: u32,
     /// Steps a row.
@@ -237,6 +239,7 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>, per_turn: f64) -> Checked<
         input_torque,
         mesh,
         cycles,
+        duration: given!(s, MOTION, raw.duration_s)?,
         steps_per_cycle,
         steps_per_row,
         waterfall_cycles: row!(s, MOTION, raw.waterfall_cycles)?,
@@ -267,7 +270,7 @@ fn cycles(s: &Source<'_>, raw: &RawMotion, mesh_hz: f64) -> Checked<u32> {
         let said = "`duration_s` and `cycles` both say how long the motion is";
         return Err(s.conflict(&own.span(), said, "leave one of both out"));
     }
-    let cycles = whole_cycles(duration, mesh_hz);
+    let cycles = whole_cycles(duration * mesh_hz);
     if cycles > MOST_CYCLES {
         let said = format!("{duration} s are {cycles:.0} cycles of the fastest mesh");
         return Err(s.conflict(&at, said, format!("{MOST_CYCLES:.0} at the most: take a shorter one")));
@@ -308,10 +311,4 @@ fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Ch
         return Err(s.conflict(&own.span(), said, hint));
     }
     Ok(Some((row!(s, MOTION, raw.periodic_tolerance)?, row!(s, MOTION, raw.warm_up_cycles)?)))
-}
-
-/// Whole mesh cycles within which a duration (s) ends, >= 1; `mesh_hz`: their mean frequency. Last digits of a duration are
-/// no further cycle.
-pub(super) fn whole_cycles(duration_s: f64, mesh_hz: f64) -> f64 {
-    (duration_s * mesh_hz * (1.0 - 1e-9)).ceil().max(1.0)
 }

@@ -58,7 +58,7 @@ pub(super) fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) ->
         Run::Steady if scene.analysis.model == Model::Mapped => "shooting",
         Run::Steady => "steady",
         Run::Shooting => "shooting",
-        Run::Span if motion.duration_s.is_none() => "span",
+        Run::Span => "span",
         _ => return None,
     };
     let drive = match &scene.drive {
@@ -72,12 +72,14 @@ pub(super) fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) ->
         return None;
     }
     let per_cycle = motion.steps_per_mesh_cycle * steps_per_row;
+    let length = motion.duration_s.filter(|_| run == "span");
+    let length =
+        length.map_or_else(|| format!("cycles = {}", scene.analysis.cycles), |t| format!("duration_s = {t:?}"));
     let mut text = format!(
-        "\n[motion]\nrun = \"{run}\"\nspeed_rpm = {:?}\ndrive = \"{drive}\"\nmesh = \"{mesh}\"\ncycles = {}\n\
+        "\n[motion]\nrun = \"{run}\"\nspeed_rpm = {:?}\ndrive = \"{drive}\"\nmesh = \"{mesh}\"\n{length}\n\
          steps_per_cycle = {per_cycle}\nsteps_per_row = {steps_per_row}\nmethod = \"{}\"\nstop_at_events = {}\n\
          modal_damping_ratio = 0.0\n",
         scene.operation.speed_rpm,
-        scene.analysis.cycles,
         motion.method.word(),
         motion.stop_at_events
     );

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use super::motion::whole_cycles;
 use super::of_pair::{Beside, LIGHT, NO_MASS, moving, two_shafts};
 use crate::{
     Axis, BearingScene, Driver, GearScene, Model, MotionScene, RampScene, Run, Scene, SceneError, TorqueScene,
@@ -125,8 +124,8 @@ fn in_motion(scene: &Scene, motion: &MotionScene, left: &mut Vec<String>) -> (Op
     }
     let (mut asked, mut drive) = (motion.clone(), "\ndrive = ".to_owned());
     if let Some(ramp) = motion.ramp {
-        drive = over_cycles(&mut plain, ramp, left) + &drive;
-        asked.run = Run::Span;
+        drive = over_time(&mut plain, ramp, left) + &drive;
+        (asked.run, asked.duration_s) = (Run::Span, Some(ramp.duration_s));
     }
     let steps = steps_per_row(&plain, &asked);
     let Some(text) = moving(&plain, &asked, steps).map(|text| text.replacen("\ndrive = ", &drive, 1)) else {
@@ -154,23 +153,15 @@ fn in_motion(scene: &Scene, motion: &MotionScene, left: &mut Vec<String>) -> (Op
     (Some(text), keys)
 }
 
-/// The line of a ramp's last speed, with its first one and its whole mesh cycles put into the scene.
-fn over_cycles(plain: &mut Scene, ramp: RampScene, left: &mut Vec<String>) -> String {
-    let RampScene { from_rpm, to_rpm, duration_s, before_s, after_s, .. } = ramp;
-    // The mean speed of the smooth step is that of both ends.
-    let mesh_hz = f64::from(plain.driver_teeth()) * 0.5 * (from_rpm + to_rpm) / 60.0;
-    let cycles = whole_cycles(duration_s, mesh_hz);
+/// The line of a ramp's last speed, with its first one put into the scene.
+fn over_time(plain: &mut Scene, ramp: RampScene, left: &mut Vec<String>) -> String {
+    let RampScene { from_rpm, to_rpm, before_s, after_s, .. } = ramp;
     plain.operation.speed_rpm = from_rpm;
-    plain.analysis.cycles = cycles as u32;
-    let lasts = cycles / mesh_hz;
-    if lasts > duration_s * (1.0 + 1e-6) {
-        left.push(format!(
-            "`duration_s` in [motion.ramp]: the speed of a gearbox changes within whole mesh cycles, here {cycles:.0}, which \
-             last {lasts:.6} s for {duration_s} s"
-        ));
-    }
     if before_s > 0.0 || after_s > 0.0 {
-        left.push("`before_s` and `after_s` in [motion.ramp]: the speed of a gearbox changes all the time".to_owned());
+        left.push(
+            "`before_s` and `after_s` in [motion.ramp]: the speed of a gearbox changes from its start to its end"
+                .to_owned(),
+        );
     }
     format!("\nto_speed_rpm = {to_rpm:?}")
 }

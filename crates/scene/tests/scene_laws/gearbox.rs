@@ -81,12 +81,13 @@ fn a_seat_may_be_beside_the_gear() {
 /// A duration is whole cycles of the fastest mesh: 17 a turn of the input; a run-up has the mean of both speeds.
 #[test]
 fn a_motion_lasts_as_long_as_it_says() {
-    let cycles = |from: &str, to: &str| {
+    let motion = |from: &str, to: &str| {
         let text = text();
         assert!(text.contains(from), "{from} is not in the file");
         let read = Gearbox::parse(&text.replacen(from, to, 1), &folder().join("two_stages.toml"));
-        read.unwrap_or_else(|e| panic!("{to}: {e}")).motion.unwrap().cycles
+        read.unwrap_or_else(|e| panic!("{to}: {e}")).motion.unwrap()
     };
+    let cycles = |from: &str, to: &str| motion(from, to).cycles;
     assert_eq!(cycles("cycles = 20\nsteps", "duration_s = 0.2\nsteps"), 85);
     assert_eq!(cycles("cycles = 20\nsteps", "duration_s = 0.2001\nsteps"), 86);
     let ramp = (
@@ -94,6 +95,9 @@ fn a_motion_lasts_as_long_as_it_says() {
         "to_speed_rpm = 4500.0\nmesh = \"spring\"\nduration_s = 0.2",
     );
     assert_eq!(cycles(ramp.0, ramp.1), 170);
+    // The speed changes as long as the file says, whatever is left of the last cycle.
+    let longer = motion(ramp.0, &ramp.1.replace("0.2", "0.2005"));
+    assert_eq!((longer.cycles, longer.duration), (171, Some(0.2005)));
     let twice = refused("cycles = 20\nsteps", "cycles = 20\nduration_s = 0.2\nsteps");
     assert!(twice.to_string().contains("both say how long"), "{twice}");
     let long = refused("cycles = 20\nsteps", "duration_s = 1e5\nsteps");

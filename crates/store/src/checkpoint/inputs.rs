@@ -129,6 +129,7 @@ fn of_motion(motion: &GearboxMotion) -> Vec<(String, String)> {
         input_torque,
         mesh,
         cycles,
+        duration,
         steps_per_cycle,
         steps_per_row,
         waterfall_cycles,
@@ -145,7 +146,7 @@ fn of_motion(motion: &GearboxMotion) -> Vec<(String, String)> {
         checkpoint_every_cycles: _,
     } = motion;
     // A ramp is another one where it is longer.
-    let cycles = to_speed_rpm.map(|_| *cycles);
+    let (cycles, duration) = (to_speed_rpm.map(|_| *cycles), to_speed_rpm.and(*duration));
     vec![
         part("motion.speed_rpm", speed_rpm),
         part("motion.to_speed_rpm", to_speed_rpm),
@@ -153,6 +154,7 @@ fn of_motion(motion: &GearboxMotion) -> Vec<(String, String)> {
         part("motion.input_torque_nm", &input_torque.map(|nmm| 1e-3 * nmm)),
         part("motion.mesh", mesh),
         part("motion.cycles", &cycles),
+        part("motion.duration_s", &duration),
         part("motion.steps_per_cycle", steps_per_cycle),
         part("motion.steps_per_row", steps_per_row),
         part("motion.waterfall_cycles", waterfall_cycles),

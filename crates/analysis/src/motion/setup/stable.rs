@@ -6,7 +6,6 @@ use scene::Scene;
 use crate::{
     AnalysisError,
     error::place_in,
-    refused::Refusal,
     unstable_steps::{Steps, UnstableSteps},
 };
 
@@ -14,12 +13,8 @@ use crate::{
 ///
 /// # Errors
 /// [`AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
-pub fn refuse_unstable(scene: &Scene, limit: &StepLimit, steps: &Steps) -> Result<(), AnalysisError> {
-    if steps.step <= limit.step {
-        return Ok(());
-    }
+pub fn refuse_unstable(scene: &Scene, limit: StepLimit, steps: Steps) -> Result<(), AnalysisError> {
+    let Some(unstable) = UnstableSteps::of(steps, limit) else { return Ok(()) };
     let keys = ["motion.steps_per_resonance", "motion.steps_per_mesh_cycle", "motion.method"];
-    let unstable = UnstableSteps { steps: *steps, limit: *limit };
-    let refusal = Refusal::no_result(unstable.to_string(), Some(unstable.hint()));
-    Err(AnalysisError::from(refusal).at(place_in(scene, &keys)))
+    Err(AnalysisError::from(unstable.refusal()).at(place_in(scene, &keys)))
 }
