@@ -423,10 +423,10 @@ fn mistakes_in_a_gearbox_are_told_at_once() {
 fn unstable_steps_of_a_gearbox_are_refused() {
     let scratch = two_stages();
     let run = |steps: &str| {
-        let set = [("motion.method", "\"rk4\""), ("motion.steps_per_cycle", steps), ("motion.cycles", "4")];
-        let words = set.iter().flat_map(|(key, value)| ["--set".to_owned(), format!("{key}={value}")]);
-        let first = ["run", "two_stages.toml", "--out", "o", "--no-view"].map(str::to_owned);
-        scratch.ale_gear(first.into_iter().chain(words))
+        let steps = format!("motion.steps_per_cycle={steps}");
+        let words = ["--set", "motion.method=\"rk4\"", "--set", "motion.cycles=4", "--set", &steps];
+        let [a, method, b, cycles, c, steps] = words;
+        scratch.ale_gear(["run", "two_stages.toml", "--out", "o", a, method, b, cycles, c, steps])
     };
     let short = run("8");
     assert_eq!(short.code, Some(2), "{}", short.stderr);
