@@ -12,6 +12,7 @@ pub mod pair_bounds;
 pub mod pair_law_fit;
 pub mod pairs_done;
 pub mod program;
+pub mod random_gearbox;
 pub mod random_motion;
 pub mod random_scene;
 pub mod random_scenes;

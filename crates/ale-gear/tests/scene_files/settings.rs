@@ -132,7 +132,7 @@ fn complaints_about_a_gearbox_name_the_setting() {
         ("gear.0.torque_nm=3", "--set gear.0.torque_nm: unknown key `torque_nm`|`torque_nm` belongs to [[torque]]"),
         (
             "motion.cycles=0",
-            "--set motion.cycles: `cycles` is 0, allowed is 1 .. 1000000|give `cycles` a number in 1 .. 1000000",
+            "--set motion.cycles: `cycles` is 0, allowed is 1 .. 1000000|`cycles` means: cycles of the fastest mesh",
         ),
         (
             "motion.method=RK4",

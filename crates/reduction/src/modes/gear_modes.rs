@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::{
     choice::ModeChoice,
     krylov::{Eigenpairs, Until, lowest},
+    pencil::Pencil,
     spin::{Spin, spin_products, swept},
     whole::Whole,
 };
@@ -84,6 +85,41 @@ impl GearReducer {
                 }
                 _ => false,
             })
+    }
+}
+
+/// Residuals with which the harmonic of the lowest frequency is looked for, and that frequency: known to 1e-12.
+const ROUGH: f64 = 0.05;
+const FINE: f64 = 1e-7;
+
+impl GearReducer {
+    /// Lowest omega^2 of the gear with its bore held and its flanks free, (rad/s)^2; infinite where nothing moves.
+    ///
+    /// # Errors
+    /// As [`Self::modes`].
+    pub(crate) fn lowest_square(&self) -> Result<f64, ReductionError> {
+        let first = |pencil: &dyn Pencil, residual: f64, block: usize| -> Result<f64, ReductionError> {
+            let pairs = lowest(pencil, Until::First { residual }, block)?;
+            Ok(pairs.squares.first().copied().unwrap_or(f64::INFINITY))
+        };
+        match self.method()? {
+            Method::Cyclic(cyclic) => {
+                let sector = cyclic.vibrating()?;
+                let of = |waves: u32, residual: f64| first(&sector.harmonic(waves)?, residual, HARMONIC_BLOCK);
+                let all = (0..=sector.teeth / 2).into_par_iter().map(|n| of(n, ROUGH));
+                let rough = all.collect::<Result<Vec<f64>, ReductionError>>()?;
+                // A Ritz value lies above its square, and the square is no farther below than the residual says.
+                let least = rough.iter().copied().fold(f64::INFINITY, f64::min);
+                let may_be = |square: f64| square.is_finite() && square <= (1.0 + 2.0 * ROUGH) * least;
+                let near: Vec<u32> = (0..).zip(&rough).filter(|(_, square)| may_be(**square)).map(|(n, _)| n).collect();
+                let fine = near.into_par_iter().map(|n| of(n, FINE)).collect::<Result<Vec<f64>, ReductionError>>()?;
+                Ok(fine.into_iter().fold(f64::INFINITY, f64::min))
+            }
+            Method::General(gear, _) => {
+                let mass = fem::assemble_mass(self.gear().mesh(), self.material(), self.dofs())?;
+                first(&Whole { gear, mass }, FINE, WHOLE_BLOCK)
+            }
+        }
     }
 }
 

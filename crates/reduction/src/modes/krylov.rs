@@ -21,6 +21,18 @@ pub(crate) enum Until {
     Count(usize),
     /// All with omega^2 up to this, (rad/s)^2.
     Below(f64),
+    /// The lowest alone, if there is one.
+    First {
+        /// Its residual relative to theta, at the most.
+        residual: f64,
+    },
+}
+
+impl Until {
+    /// Residual of a converged pair relative to theta.
+    fn residual(self) -> f64 {
+        if let Self::First { residual } = self { residual } else { RESIDUAL }
+    }
 }
 
 /// Some modes of a body, the lowest first.
@@ -32,7 +44,7 @@ pub(crate) struct Eigenpairs {
     pub shapes: Mat<f64>,
 }
 
-/// Residual of a converged pair relative to theta; the frequency's own error is its square.
+/// Residual of a converged pair relative to theta, of several; the frequency's own error is its square.
 const RESIDUAL: f64 = 1e-9;
 /// theta of no motion at all, relative to the largest: round-off in a basis that spans everything.
 const NOTHING: f64 = 1e-11;
@@ -60,7 +72,8 @@ pub(crate) fn lowest(pencil: &dyn Pencil, until: Until, block: usize) -> Result<
             return Ok(ritz.pairs(&basis, count));
         }
         if basis.size() > MOST_VECTORS {
-            return Err(ReductionError::ModesNotConverged { converged: ritz.converged(), vectors: basis.size() });
+            let converged = ritz.converged(until.residual());
+            return Err(ReductionError::ModesNotConverged { converged, vectors: basis.size() });
         }
     }
     Ok(Eigenpairs { squares: Vec::new(), shapes: Mat::zeros(n, 0) })
@@ -105,9 +118,9 @@ impl Ritz {
         Ok(Self { theta, vectors, residuals })
     }
 
-    /// How many from the first on are good.
-    fn converged(&self) -> usize {
-        let good = |(theta, residual): (&f64, &f64)| *theta > 0.0 && *residual <= RESIDUAL * theta;
+    /// How many from the first on have residuals up to `most` of theta.
+    fn converged(&self, most: f64) -> usize {
+        let good = |(theta, residual): (&f64, &f64)| *theta > 0.0 && *residual <= most * theta;
         self.theta.iter().zip(&self.residuals).take_while(|&p| good(p)).count()
     }
 
@@ -115,9 +128,10 @@ impl Ritz {
     /// reach.
     fn settled(&self, until: Until, complete: bool) -> Option<usize> {
         let real = |t: &&f64| **t > NOTHING * self.theta[0];
-        let good = if complete { self.theta.iter().take_while(real).count() } else { self.converged() };
+        let good = if complete { self.theta.iter().take_while(real).count() } else { self.converged(until.residual()) };
         match until {
             Until::Count(count) => (complete || good >= count).then_some(good.min(count)),
+            Until::First { .. } => (complete || good >= 1).then_some(good.min(1)),
             Until::Below(square) => {
                 let below = self.theta.iter().take_while(|t| **t * square >= 1.0).count();
                 // The first one above the bound must be as sure to be there as its residual says.

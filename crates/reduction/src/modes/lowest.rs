@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use faer::Mat;
 
 use super::{
-    choice::ModeChoice,
     held::{Held, Rows, on_rows},
     krylov::{Until, lowest},
     pencil::Pencil,
@@ -34,8 +33,7 @@ impl GearReducer {
     /// As [`GearReducer::modes`]; [`ReductionError::NotPositiveDefinite`] for a grid with more nodes than the mesh can
     /// tell apart.
     pub fn lowest_frequencies(&self) -> Result<LowestFrequencies, ReductionError> {
-        let free = self.modes(ModeChoice::Count(1))?;
-        let flanks_free_hz = free.frequencies_hz().first().copied().unwrap_or(f64::INFINITY);
+        let flanks_free_hz = self.lowest_elastic_hz()?;
         let window = Window { reduced: self.base.clone(), shift: 0 };
         let (loads, compliance) = (self.loads(&window)?, window.reduced.compliance());
         let square = match self.method()? {

@@ -8,13 +8,16 @@ mod recorded;
 mod tooth_windows;
 mod windows;
 
-use std::sync::{Arc, OnceLock};
+use std::{
+    f64::consts::TAU,
+    sync::{Arc, OnceLock},
+};
 
 use fem::{DofMap, ElementOptions, Material};
 use geometry::Side;
 use mesh::{Face, MeshedGear};
 
-use crate::{FlankGrid, FlankGrids, LayerStack, ModeChoice, ReducedGear, ReductionError, load::Coordinates};
+use crate::{FlankGrid, FlankGrids, LayerStack, ReducedGear, ReductionError, load::Coordinates};
 use asked::Asked;
 use condense::{Condensed, condense, method_again};
 
@@ -159,7 +162,7 @@ impl GearReducer {
         if let Some(hz) = self.asked.lowest_hz.get() {
             return Ok(*hz);
         }
-        let hz = self.modes(ModeChoice::Count(1))?.frequencies_hz().first().copied().unwrap_or(f64::INFINITY);
+        let hz = self.lowest_square()?.sqrt() / TAU;
         Ok(*self.asked.lowest_hz.get_or_init(|| hz))
     }
 

@@ -88,7 +88,7 @@ pub(super) fn seats(
         }
         let holds = |b: &&GearboxBearing| (b.shaft == i || b.in_shaft == Some(i)) && b.stiffness[5][5] > 0.0;
         // Meshes may hold the turn of a carrier beside a fixed shaft.
-        if !(own.stands && fixed.is_some()) && !bearings.iter().any(|b| holds(&b)) {
+        if !(own.stands && fixed.is_some() || bearings.iter().any(|b| holds(&b))) {
             return wrong(
                 format!("\"{}\" {still}, and nothing holds its turn", own.name),
                 "give one of its bearings `turn_stiffness_nm_per_rad`",

@@ -9,6 +9,7 @@
 //! accuracy check laws FILE...                         committed laws on measured pairs, by quantity and stratum
 //! accuracy check rest TOLERANCE_PERCENT COUNT FILE... `model = "auto"` on measured pairs, with its cost
 //! accuracy check motion TOLERANCE_PERCENT SEED FIRST COUNT [MESH_RUNG]
+//! accuracy check gearbox TOLERANCE_PERCENT SEED FIRST COUNT
 //! accuracy page OUT.md FILE...                        which model of a motion suffices
 //! accuracy chart OUT.md SCENES                        speed against accuracy of everything
 //! ```

@@ -2,8 +2,10 @@
 //!
 //! `laws`: the committed laws on measured pairs, without a run. `rest`: every measured pair is solved with `model = "auto"` and
 //! with the program's default settings. `motion`: every narrow random pair is moved at one speed with `model = "auto"`, and held
-//! against `reduced+modes` with fine steps on a mesh of the rung.
+//! against `reduced+modes` with fine steps on a mesh of the rung. `gearbox`: narrow random pairs on elastic shafts, against fine
+//! meshes, slices, positions and shaft elements.
 
+mod gearbox;
 mod laws;
 mod motion;
 mod rest;
@@ -45,19 +47,20 @@ impl Tally {
     }
 }
 
-/// `words`: `laws`, `rest` or `motion`, and what these want.
+/// `words`: `laws`, `rest`, `motion` or `gearbox`, and what these want.
 pub(super) fn run(words: &[String]) -> Result<(), Failure> {
-    let [kind, words @ ..] = words else { return Err("laws, rest or motion is wanted".into()) };
+    let [kind, words @ ..] = words else { return Err("laws, rest, motion or gearbox is wanted".into()) };
     if kind == "laws" {
         return laws::check(words);
     }
-    let [percent, more @ ..] = words else { return Err("rest|motion TOLERANCE_PERCENT are wanted".into()) };
+    let [percent, more @ ..] = words else { return Err("rest|motion|gearbox TOLERANCE_PERCENT are wanted".into()) };
     let share = 1e-2 * percent.parse::<f64>()?;
     let mut tallies = Tallies::new();
     match kind.as_str() {
         "rest" => rest::check(share, more, &mut tallies)?,
         "motion" => motion::check(share, more, &mut tallies)?,
-        _ => return Err("`laws`, `rest` or `motion` is wanted first".into()),
+        "gearbox" => gearbox::check(share, more, &mut tallies)?,
+        _ => return Err("`laws`, `rest`, `motion` or `gearbox` is wanted first".into()),
     }
     for (key, mut tally) in tallies {
         let [said, kept, wrong] = tally.met;
