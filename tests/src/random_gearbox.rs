@@ -20,7 +20,7 @@ const MOST_TEETH: u32 = 80;
 pub fn random_gearbox(seed: u64, index: u64) -> Option<Gearbox> {
     let scene = random_scene(seed, index);
     let width = scene.face_widths_mm()[0].max(scene.face_widths_mm()[1]);
-    let most = scene.pinion.teeth.unsigned_abs().max(scene.wheel.teeth.unsigned_abs());
+    let most = scene.pinion.teeth.max(scene.wheel.teeth);
     if width > WIDEST * scene.pair.normal_module_mm || most > MOST_TEETH {
         return None;
     }

@@ -87,6 +87,7 @@ fn reduced_modes(
     let (theta, vectors) = dense::symmetric_eigen(mass.as_ref())?;
     let wanted = match choice.until() {
         Until::Count(count) => count.min(n),
+        Until::First { .. } => n.min(1),
         Until::Below(square) => theta.iter().filter(|t| **t * square >= 1.0).count(),
     };
     let vectors = Mat::from_fn(n, wanted, |i, j| vectors[(i, n - 1 - j)] / theta[n - 1 - j].sqrt());
