@@ -76,7 +76,7 @@ fn complaints_name_the_setting() {
         ),
         (
             "motion.method=leapfrog",
-            "--set motion.method: `method` is \"leapfrog\", allowed is \"energy\" or \"generalised-alpha\" or \"newmark\" or \"dormand-prince\" or \"rk4\"|give `method` a value that is allowed",
+            "--set motion.method: [motion] belongs to an analysis in time|leave it out, or say `kind = \"dynamic\"` in [analysis]",
         ),
         (
             "operation",

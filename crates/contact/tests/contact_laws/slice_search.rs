@@ -249,15 +249,13 @@ fn rigid_flanks_are_slices_without_a_mesh() {
     }
 }
 
-/// The least gap of a height is what was foretold of it, on modified and on plain flanks: not less, not more.
+/// The least gap of a height is what was foretold of it: not less, not more.
 #[test]
 fn gaps_are_as_foretold() {
-    let pairs = || [default_data(20.0), default_data(35.0), internal()];
-    let all = [true, false].into_iter().flat_map(|modified| pairs().map(|data| (modified, data)));
-    for (modified, data) in all {
-        let set = flanks(modified, data);
+    for data in [default_data(20.0), default_data(35.0), internal()] {
+        let set = flanks(true, data);
         let mut held = 0;
-        for seed in 0..10_000 {
+        for seed in 0..20_000 {
             let mut random = Random::new(seed);
             let share = 10f64.powf(random.between(-3.0, 0.0));
             let poses = poses_within(&set.pair, &mut random, share);
@@ -268,7 +266,7 @@ fn gaps_are_as_foretold() {
             held += usize::from(low.is_finite());
             assert!(low <= gap && gap <= high, "pose {seed}, z {z}: {gap} mm, foretold {low} to {high} mm");
         }
-        println!("modified {modified}, ring {}: {held} gaps foretold", set.pair.is_internal());
-        assert!(held > 5_000, "modified {modified}: {held} gaps foretold");
+        println!("ring {}: {held} gaps foretold", set.pair.is_internal());
+        assert!(held > 10_000, "{held} gaps foretold");
     }
 }
