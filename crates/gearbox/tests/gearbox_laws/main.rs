@@ -7,6 +7,7 @@ mod exact;
 mod fed_ladder;
 mod fields;
 mod forced;
+mod idlers;
 mod internal_motion;
 mod mapped_friction;
 mod mapped_pair;
