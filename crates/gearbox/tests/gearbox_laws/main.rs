@@ -2,6 +2,7 @@
 //! limits, jumps, tooth changes, integrators, modes, maps of the contact.
 
 mod both_free;
+mod double_helical;
 mod elastic;
 mod exact;
 mod fed_ladder;
