@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     plausible,
     refused::Refusal,
-    results::{diameter, face_load_factor, largest_tensions, patterns, pressed},
+    results::{diameter, face_load_factor, largest_tensions, mesh_tensions, patterns, pressed},
     run_phase, solver_error, static_certificate, unless_cancelled,
 };
 
@@ -131,7 +131,12 @@ impl SolvedLoad {
         let flank = |gear: usize| pressed(scene, pair, gear, (slices(), step));
         let flanks = if scene.has_slices() { Some([flank(0)?, flank(1)?]) } else { None };
         let count = scene.contact.slices.unwrap_or(1) as usize;
-        Ok(Self { torque_nm, face_load_factor: ltca::face_load_factor(count, slices()), flanks, root_tensions: None })
+        Ok(Self {
+            torque_nm,
+            face_load_factor: ltca::face_load_factor(count, slices()),
+            flanks,
+            root_tensions: mesh_tensions(meshes),
+        })
     }
 
     fn of(
@@ -144,7 +149,7 @@ impl SolvedLoad {
             torque_nm,
             face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
             flanks: flanks.map(|both| both.map(|own| own.grid)),
-            root_tensions: largest_tensions(positions),
+            root_tensions: largest_tensions(positions.iter().map(|p| &p.root_stress)),
         })
     }
 

@@ -7,7 +7,7 @@ use ltca::StaticHistory;
 use rating::PressedPlace;
 use scene::Scene;
 
-use crate::results::{PressurePlace, PressureSpot, base_radius_mm, face_load_factor, largest_tensions};
+use crate::results::{PressurePlace, PressureSpot, base_radius_mm, face_load_factor, largest_tensions, mesh_tensions};
 
 /// What ratings read of a solved contact, all positions together.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl SolvedMesh {
             face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
             pressed: pairs.flat_map(|pair| pressed(scene, pair.normal_force, &pair.slices)).collect(),
             hardest: PressurePlace::of(scene, history).map(|place| (largest, place)),
-            root_tensions: largest_tensions(positions),
+            root_tensions: largest_tensions(positions.iter().map(|p| &p.root_stress)),
             positions: positions.len(),
             moments: [0, 1].map(moment),
         }
@@ -57,7 +57,7 @@ impl SolvedMesh {
             face_load_factor: ltca::face_load_factor(scene.contact.slices.unwrap_or(1) as usize, slices()),
             pressed: meshes.iter().flat_map(|m| pressed(scene, m.normal_force, &m.slices)).collect(),
             hardest,
-            root_tensions: None,
+            root_tensions: mesh_tensions(meshes),
             positions: meshes.len(),
             moments: [0, 1].map(moment),
         }

@@ -3,7 +3,10 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use analysis::gearbox::{GearboxResult, MeshResult};
+use analysis::{
+    gearbox::{GearboxResult, MeshResult},
+    results::{MAX_PRINCIPAL, MIN_PRINCIPAL, fillet_peaks},
+};
 use answer::{OfRow, RowColumn, RowStore, Table, TableError, Values};
 use gearbox::{
     BearingState, GearboxPosition, ShaftLine, line_load, load_shares,
@@ -41,6 +44,17 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
         push(name("max_pressure_mpa"), "largest contact pressure", &|p| {
             p.meshes[i].slices.iter().map(|s| s.pressure).fold(0.0, f64::max)
         });
+        let gears = ["pinion", "wheel"].into_iter().enumerate().filter(|_| file.meshes[i].scene.output.root_stress);
+        for (end, gear) in gears {
+            let meaning = "largest first principal stress (tension) in the root fillets of this gear by this mesh; with `root_stress = true` in its scene";
+            push(name(&format!("{gear}_root_stress_max_principal_mpa")), meaning, &|p| {
+                MAX_PRINCIPAL.stress(&fillet_peaks(&p.meshes[i].root_stress[end]), None)
+            });
+            let meaning = "smallest third principal stress (compression, negative) in these fillets";
+            push(name(&format!("{gear}_root_stress_min_principal_mpa")), meaning, &|p| {
+                MIN_PRINCIPAL.stress(&fillet_peaks(&p.meshes[i].root_stress[end]), None)
+            });
+        }
     }
     for (_, mesh) in file.meshes_of_planets() {
         for (n, i) in mesh.of_planets.iter().enumerate() {

@@ -11,7 +11,7 @@ use contact::{
     slice_result,
 };
 use geometry::GearPair;
-use ltca::{StaticError, StaticOptions};
+use ltca::{FilletField, RootStress, StaticError, StaticOptions, WindowedPair};
 use nalgebra::{DMatrix, SMatrix};
 use reduction::{ElasticGear, GearModes};
 
@@ -34,6 +34,8 @@ pub struct ExactMesh {
     within: Option<f64>,
     /// The contact with elastic modes as coordinates, where some are kept.
     modal: Option<ModalContact>,
+    /// Fillets of both gears, where their stress is asked for.
+    roots: Option<RootStress>,
 }
 
 /// Overlap over that of the last evaluation up to which the search is narrow.
@@ -57,6 +59,7 @@ impl ExactMesh {
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
+        let roots = options.root_stress.then(|| RootStress::new(&pair, &gears));
         Ok(Self {
             pair,
             gears,
@@ -67,6 +70,7 @@ impl ExactMesh {
             poses: [Pose::identity(); 2],
             within: None,
             modal: None,
+            roots,
         })
     }
 
@@ -212,5 +216,16 @@ impl MeshElement for ExactMesh {
         rows.filter(|((_, f), _)| **f > 0.0)
             .map(|(((row, slice), &f), state)| slice_result(slice, set.side(row.patches.0), f, &state.local))
             .collect()
+    }
+
+    fn root_stress(&self) -> Result<[Vec<FilletField>; 2], GearboxError> {
+        let Some(roots) = &self.roots else { return Ok(Default::default()) };
+        let (contact, set) = (&self.contact, self.contact.contact_set());
+        let forces = contact.solver().forces();
+        let rows = set.supported_rows(&self.poses, contact.rows(), contact.slices(), forces);
+        let loads = (!rows.is_empty()).then(|| set.forces_of(&rows, forces)).flatten();
+        let Self { pair, gears, options, window, .. } = self;
+        let windowed = WindowedPair { pair, gears, set, window: window.window(), options };
+        Ok(roots.fields(&windowed, loads.as_ref())?)
     }
 }

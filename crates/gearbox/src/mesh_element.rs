@@ -1,6 +1,7 @@
 //! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (81).
 
 use contact::SliceResult;
+use ltca::FilletField;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use crate::GearboxError;
@@ -69,6 +70,14 @@ pub trait MeshElement {
     /// Loaded slices of the last evaluation, for elements that know them.
     fn slices(&self) -> Vec<SliceResult> {
         Vec::new()
+    }
+
+    /// Stress in the root fillets of both gears under the forces of the last evaluation, for elements that know it; else none.
+    ///
+    /// # Errors
+    /// [`GearboxError`] where it cannot be recovered.
+    fn root_stress(&self) -> Result<[Vec<FilletField>; 2], GearboxError> {
+        Ok(Default::default())
     }
 }
 

@@ -1,6 +1,7 @@
 //! Results of a solved position of a gearbox. Theory (85).
 
 use contact::SliceResult;
+use ltca::FilletField;
 use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::{
@@ -22,11 +23,12 @@ pub(crate) struct Solved {
     /// Forces on the gears, common axes.
     pub forces: Vec<Vector12>,
     pub slices: Vec<Vec<SliceResult>>,
+    pub roots: Vec<[Vec<FilletField>; 2]>,
 }
 
 /// Everything that is known of it.
 pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPosition {
-    let Solved { angle, cycles, found, replies, pressed, forces, slices } = solved;
+    let Solved { angle, cycles, found, replies, pressed, forces, slices, roots } = solved;
     let seats = &gearbox.seats.basis * &found.displacements;
     let mut all = gearbox.seats.all(&seats);
     for (shaft, _) in gearbox.held.iter().enumerate().filter(|(_, held)| **held) {
@@ -56,9 +58,12 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
         })
         .collect();
     let balance = balances(gearbox, &gearbox.reactions(&seats, &forces), &forces, &bearings);
-    let meshes: Vec<MeshState> = (replies.iter().zip(&forces).zip(cycles).zip(slices).enumerate())
-        .map(|(i, (((reply, force), cycles), slices))| mesh_state(gearbox, i, &seats, cycles, reply, force, slices))
-        .collect();
+    let meshes: Vec<MeshState> =
+        (replies.iter().zip(&forces).zip(cycles).zip(slices.into_iter().zip(roots)).enumerate())
+            .map(|(i, (((reply, force), cycles), solved))| {
+                mesh_state(gearbox, i, &seats, cycles, (reply, force), solved)
+            })
+            .collect();
     let lags = gearbox.operation.torques.iter().map(|torque| lag(gearbox, torque.disc, &seats)).collect();
     let Balance { input_torque, held, body } = balance;
     GearboxPosition {
@@ -104,9 +109,8 @@ fn mesh_state(
     mesh: usize,
     seats: &DVector<f64>,
     cycles: f64,
-    reply: &MeshForces,
-    force: &Vector12,
-    slices: Vec<SliceResult>,
+    (reply, force): (&MeshForces, &Vector12),
+    (slices, root_stress): (Vec<SliceResult>, [Vec<FilletField>; 2]),
 ) -> MeshState {
     let (at, turn) = gearbox.place(mesh);
     let own = turn.transpose() * Vector12::from_fn(|k, _| seats[at[k / 6] + k % 6]);
@@ -126,5 +130,6 @@ fn mesh_state(
         misalignment_in_plane: lean.x * sin + lean.y * s * cos,
         misalignment_across: lean.y * sin - lean.x * s * cos,
         slices,
+        root_stress,
     }
 }

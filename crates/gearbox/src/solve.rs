@@ -1,6 +1,7 @@
 //! A gearbox at an angle of its input: equilibrium from where the last positions lead to, then what is read off. Theory (84).
 
 use contact::SliceResult;
+use ltca::FilletField;
 use nalgebra::DVector;
 
 use crate::{
@@ -35,21 +36,28 @@ impl StaticGearbox {
         let Trial { found, mut replies, pressed } = sought?;
         let Self { elements, meshes, last, .. } = self;
         let mut slices: Vec<Vec<SliceResult>> = elements.iter().map(|e| e.slices()).collect();
+        let mut roots = Vec::with_capacity(elements.len());
         for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
             element.check().map_err(|source| at_mesh(mesh, source))?;
+            roots.push(element.root_stress().map_err(|source| at_mesh(mesh, source))?);
         }
         last.insert(0, (angle, found.displacements.clone()));
         last.truncate(2);
-        self.follow(&mut replies, &mut slices, &found.last_step);
+        self.follow(&mut replies, (&mut slices, &mut roots), &found.last_step);
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
-        Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices }))
+        Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices, roots }))
     }
 
-    /// Forces of the meshes after a last small step. Where the load lies does not change in it: forces of the slices, and their
-    /// sum, go with the moment on gear 2, pressures as its square root.
-    fn follow(&self, replies: &mut [MeshForces], slices: &mut [Vec<SliceResult>], step: &DVector<f64>) {
-        for ((to_gears, reply), slices) in self.to_gears.iter().zip(replies).zip(slices) {
+    /// Forces of the meshes after a last small step. Where the load lies does not change in it: forces of the slices, their
+    /// sum and stress in fillets go with the moment on gear 2, pressures as its square root.
+    fn follow(
+        &self,
+        replies: &mut [MeshForces],
+        (slices, roots): (&mut [Vec<SliceResult>], &mut [[Vec<FilletField>; 2]]),
+        step: &DVector<f64>,
+    ) {
+        for (((to_gears, reply), slices), roots) in self.to_gears.iter().zip(replies).zip(slices).zip(roots) {
             let before = reply.force[11];
             reply.force += reply.tangent * (to_gears * step);
             let grown = reply.force[11] / before;
@@ -59,6 +67,7 @@ impl StaticGearbox {
                     slice.line_load *= grown;
                     slice.pressure *= grown.sqrt();
                 }
+                roots.iter_mut().flatten().for_each(|fillet| fillet.grow(grown));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Results of a gearbox at rest, position by position.
 
 use contact::SliceResult;
+use ltca::FilletField;
 
 use crate::rolling_bearing::RollingState;
 
@@ -53,6 +54,8 @@ pub struct MeshState {
     pub misalignment_across: f64,
     /// Loaded slices, for elements that know them: the line load over the width.
     pub slices: Vec<SliceResult>,
+    /// Stress in the root fillets of the windows of gear 1 and gear 2, for elements that were asked for it.
+    pub root_stress: [Vec<FilletField>; 2],
 }
 
 /// Residuals of a solved position.

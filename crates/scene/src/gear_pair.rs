@@ -27,7 +27,7 @@ impl Scene {
 }
 
 /// Gear data of pinion and wheel in the program's own units.
-fn data(scene: &Scene, gear: &GearScene) -> GearData {
+pub(crate) fn data(scene: &Scene, gear: &GearScene) -> GearData {
     let sign = if gear.is_internal() { -1.0 } else { 1.0 };
     let rounding = gear.shaper.map_or(scene.pair.root_radius_coefficient, |s| s.tip_rounding_coefficient);
     GearData {

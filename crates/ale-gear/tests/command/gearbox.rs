@@ -93,6 +93,8 @@ fn every_key_is_in_a_scene_that_runs() {
         "engine.toml",
         "resonance_curve.toml",
         "planet_in_ring.toml",
+        "idler.toml",
+        "double_helical.toml",
         "planetary_stage.toml",
         "planetary_stage_ring_fixed.toml",
     ];

@@ -107,7 +107,8 @@ fn all() -> Vec<Listed> {
     let of_gearbox = |name: &str| Gearbox::read(&repository().join("scenes/gearbox").join(name)).unwrap();
     // Columns of rolling bearings and of planets: there are no rows.
     let planets = of_gearbox("planetary_stage.toml").planets;
-    let gearbox = Gearbox { planets, ..of_gearbox("rolling_bearings.toml") };
+    let mut gearbox = Gearbox { planets, ..of_gearbox("rolling_bearings.toml") };
+    gearbox.meshes[0].scene.output.root_stress = true;
     let tables = documented_tables(&scene.build().unwrap(), &gearbox).unwrap();
     let (of_envelope, keys_of_envelope) = envelope::files::documented();
     let tables = tables.into_iter().chain(of_envelope.into_iter().map(|table| (table.name.to_string(), table)));

@@ -34,7 +34,7 @@ impl Curves {
         let positions = &history.positions;
         let all = |of: &dyn Fn(&StaticPosition) -> f64| positions.iter().map(of).collect::<Vec<f64>>();
         let force = |p: &StaticPosition| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, crate::worse);
-        let tensions = positions.iter().map(|p| largest_tensions(std::slice::from_ref(p)));
+        let tensions = positions.iter().map(|p| largest_tensions(std::iter::once(&p.root_stress)));
         let tensions: Option<Vec<[f64; 2]>> = tensions.collect();
         let tension = |gear: usize| tensions.iter().flatten().map(|both| both[gear]).collect::<Vec<f64>>();
         Self {

@@ -10,7 +10,7 @@ use crate::{motion::RunUpHeadline, pair_rating::RatingHeadline, run_up::RunUpTor
 
 use super::{
     BearingLife, BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, Rates,
-    RollingLoad, VibrationResult,
+    RollingLoad, RootBending, VibrationResult,
 };
 
 /// What a number is of, and how it is read off; of meshes and bearings by their place in the file.
@@ -18,6 +18,7 @@ use super::{
 enum Of {
     Whole(fn(&GearboxResult) -> f64),
     Meshes(fn(&MeshResult) -> Option<f64>),
+    Gears(fn(&RootBending) -> Option<f64>),
     Outputs(fn(&OutputResult) -> f64),
     Bearings(fn(&BearingLoad) -> f64),
     Planets(fn(&LoadSharing) -> Option<f64>),
@@ -54,7 +55,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 43] = [
+const NUMBERS: [Number; 46] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -77,6 +78,21 @@ const NUMBERS: [Number; 43] = [
         Of::Meshes(|m| m.face_load_factor),
     ),
     list("max_pressure_mpa", "largest contact pressure of each mesh", Of::Meshes(|m| Some(m.max_pressure))),
+    list(
+        "max_root_stress_mpa",
+        "largest tension in the root fillets of each gear, in all its meshes; with `root_stress = true` in the scene of a mesh, `null` of a gear without",
+        Of::Gears(|g| Some(g.largest)),
+    ),
+    list(
+        "root_stress_range_mpa",
+        "largest minus smallest root stress of each gear at the place of the largest tension; with `root_stress = true`",
+        Of::Gears(|g| Some(g.range())),
+    ),
+    list(
+        "root_stress_ratio",
+        "R of each gear: smallest over largest root stress at the place of the largest tension, near -1.2 of idlers and planets; with `root_stress = true`",
+        Of::Gears(RootBending::ratio),
+    ),
     list(
         "peak_to_peak_lag_urad",
         "peak to peak of the lag of each output: the transmission error from input to output",
@@ -284,6 +300,11 @@ impl GearboxResult {
             Some(match of {
                 Of::Whole(own) => json!(own(self)),
                 Of::Meshes(own) => self.meshes.iter().map(own).collect(),
+                Of::Gears(own) => {
+                    let of = |fillets: &Option<[RootBending; 2]>| fillets.as_ref().and_then(|[worst, _]| own(worst));
+                    let some = self.root_bending.iter().any(Option::is_some);
+                    some.then(|| self.root_bending.iter().map(of).collect())?
+                }
                 Of::Outputs(own) => self.outputs.iter().map(own).collect(),
                 Of::Bearings(own) => self.bearings.iter().map(own).collect(),
                 Of::Planets(own) => (!self.planets.is_empty()).then(|| self.planets.iter().map(own).collect())?,
@@ -349,6 +370,10 @@ impl GearboxResult {
         let count = |of: Of| match of {
             Of::Whole(_) => Some(None),
             Of::Meshes(_) => Some(Some(file.meshes.len())),
+            Of::Gears(_) => {
+                let some = file.meshes.iter().any(|m| m.scene.output.root_stress);
+                some.then_some(Some(file.gears.len()))
+            }
             Of::Outputs(_) => Some(Some(file.torques.len())),
             Of::Bearings(_) => Some(Some(file.bearings.len())),
             Of::Planets(_) => (of_planets > 0).then_some(Some(of_planets)),

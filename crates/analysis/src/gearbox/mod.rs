@@ -14,6 +14,7 @@
 //! | `motion_checks`, `motion_remarks` | what must hold of a motion, what is said of it |
 //! | `branch` | its periodic motions over the speed, stable and unstable |
 //! | `rating` | whether its meshes will hold |
+//! | `root_bending` | root stress of every gear by all its meshes |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `clearance` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
@@ -37,6 +38,7 @@ mod parts;
 mod rating;
 mod reached;
 mod result;
+mod root_bending;
 mod sink;
 mod solve;
 mod solved_positions;
@@ -60,6 +62,7 @@ pub use moved::{GearboxMotionResult, GearboxRows};
 pub use orders::MotionOrder;
 pub use reached::{Range, ReachedByMesh, ReachedByRows};
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult, Rates};
+pub use root_bending::RootBending;
 pub use sink::GearboxSink;
 use sink::NoGearboxSink;
 use solve::{Asked, Slices, solve};

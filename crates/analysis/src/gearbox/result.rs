@@ -12,10 +12,11 @@ use scene::{
 };
 
 use super::{
-    GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
+    GearboxBranchResult, GearboxMotionResult, RollingLoad, RootBending, VibrationResult,
     bearings::{BearingTurns, LifeLimits, rolling_load},
     clearance::{clearance_remarks, play_remarks},
     meshes::ReducedMesh,
+    root_bending::{self, root_bending},
     spectrum::SolvedSpectrum,
 };
 use crate::{
@@ -41,6 +42,8 @@ pub struct GearboxResult {
     pub pairs: Vec<GearPair>,
     /// Meshes.
     pub meshes: Vec<MeshResult>,
+    /// Root fillets of each gear, that with the larger tension first; `None` of gears of which no mesh knows root stress.
+    pub root_bending: Vec<Option<[RootBending; 2]>>,
     /// Bearings.
     pub bearings: Vec<BearingLoad>,
     /// Outputs, in the order of the torques.
@@ -262,6 +265,8 @@ pub(super) fn result(
     }
     remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
     remarks.extend(play_remarks(file, structure, &meshes));
+    let root_bending = root_bending(file, all);
+    remarks.extend(root_bending::remarks(file, &root_bending));
     for (i, pair) in pairs.iter().enumerate() {
         let slices = || all.iter().flat_map(move |p| &p.meshes[i].slices);
         let widest = slices().map(|s| s.half_width).fold(0.0, f64::max);
@@ -273,6 +278,7 @@ pub(super) fn result(
         ratios: train.ratios().to_vec(),
         ratios_in_space: train.ratios_in_space().to_vec(),
         meshes: of_meshes,
+        root_bending,
         bearings,
         outputs: (0..file.torques.len()).map(output).collect(),
         planets: file.meshes_of_planets().map(|(_, mesh)| LoadSharing::of(all, &mesh.of_planets)).collect(),

@@ -1,7 +1,10 @@
 //! Root stress in the result files: what is the largest, of which tooth, and where.
 
+use gearbox::MeshState;
 use geometry::Side;
-use ltca::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StaticHistory, StaticPosition, StressPeak};
+use ltca::{
+    FilletField, FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StaticHistory, StaticPosition, StressPeak,
+};
 use serde::Serialize;
 
 described::described! {
@@ -123,14 +126,26 @@ pub fn root_stress_remarks(largest: [(f64, f64); 2]) -> impl Iterator<Item = ans
 }
 
 /// From this estimate on the user is told, %.
-const DOUBTFUL_PERCENT: f64 = 3.0;
+pub(crate) const DOUBTFUL_PERCENT: f64 = 3.0;
 
-/// Largest first principal stresses in the fillets of pinion and wheel over some positions, MPa; `None` where they are not
-/// computed.
-pub fn largest_tensions(positions: &[StaticPosition]) -> Option<[f64; 2]> {
-    let of = |gear: usize| positions.iter().map(move |p| MAX_PRINCIPAL.stress(&p.root_stress[gear], None));
+/// Largest first principal stresses in the fillets of pinion and wheel over the fillets of some positions, MPa; `None` where
+/// they are not computed.
+pub fn largest_tensions<'a>(positions: impl Iterator<Item = &'a [Vec<FilletStress>; 2]> + Clone) -> Option<[f64; 2]> {
+    let of = |gear: usize| positions.clone().map(move |both| MAX_PRINCIPAL.stress(&both[gear], None));
     let known = |gear: usize| of(gear).filter(|stress| !stress.is_nan()).reduce(f64::max);
     Some([known(0)?, known(1)?])
+}
+
+/// The same of a mesh of a gearbox.
+pub(crate) fn mesh_tensions(states: &[&MeshState]) -> Option<[f64; 2]> {
+    let peaks: Vec<[Vec<FilletStress>; 2]> =
+        states.iter().map(|own| own.root_stress.each_ref().map(|fillets| fillet_peaks(fillets))).collect();
+    largest_tensions(peaks.iter())
+}
+
+/// Peaks of the fillets of a mesh of a gearbox.
+pub fn fillet_peaks(fillets: &[FilletField]) -> Vec<FilletStress> {
+    fillets.iter().map(|own| own.peaks).collect()
 }
 
 /// Largest root stresses of a run that computed them.

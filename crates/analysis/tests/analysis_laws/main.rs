@@ -10,6 +10,7 @@ mod gearbox_accuracy;
 mod gearbox_branch;
 mod gearbox_of_pairs;
 mod held_pair;
+mod idlers;
 mod interest;
 mod jammed;
 mod kept_at_once;

@@ -2,11 +2,13 @@
 //! limits, jumps, tooth changes, integrators, modes, maps of the contact.
 
 mod both_free;
+mod double_helical;
 mod elastic;
 mod exact;
 mod fed_ladder;
 mod fields;
 mod forced;
+mod idlers;
 mod internal_motion;
 mod mapped_friction;
 mod mapped_pair;

@@ -91,6 +91,11 @@ impl<'a> Surroundings<'a> {
 }
 
 impl Fillet {
+    /// Places of its nodes among those of the window.
+    pub fn places(&self) -> impl Iterator<Item = usize> + '_ {
+        self.places.iter().copied()
+    }
+
     /// Largest of `sign` times a measure over all nodes, as a value of the measure.
     pub fn largest(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<f64> {
         self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })

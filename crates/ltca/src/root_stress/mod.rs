@@ -87,6 +87,54 @@ pub struct FilletStress {
     pub von_mises: StressPeak,
 }
 
+/// Principal stresses at a place of a fillet's surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilletPlace {
+    /// Distance from the gear's axis, mm.
+    pub radius: f64,
+    /// Height from mid-face, mm.
+    pub z: f64,
+    /// Largest principal stress, MPa; that across the surface is 0.
+    pub max_principal: f64,
+    /// Smallest principal stress, MPa.
+    pub min_principal: f64,
+}
+
+/// A fillet with all its places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilletField {
+    /// Peaks.
+    pub peaks: FilletStress,
+    /// Places, one a node of the mesh.
+    pub places: Vec<FilletPlace>,
+}
+
+impl FilletField {
+    /// Makes it the stress under as many times the load.
+    pub fn grow(&mut self, load: f64) {
+        self.peaks = self.peaks.times(load);
+        for place in &mut self.places {
+            place.max_principal *= load;
+            place.min_principal *= load;
+        }
+    }
+}
+
+impl FilletStress {
+    /// The stress under as many times the load.
+    pub fn times(&self, load: f64) -> Self {
+        let of = |peak: StressPeak| StressPeak {
+            stress: load * peak.stress,
+            from_volume: load * peak.from_volume,
+            beside: load * peak.beside,
+            ..peak
+        };
+        let [max_principal, min_principal, von_mises] =
+            [self.max_principal, self.min_principal, self.von_mises].map(of);
+        Self { max_principal, min_principal, von_mises, ..*self }
+    }
+}
+
 impl StressPeak {
     /// What both recoveries see of it, MPa, the smaller of them: by this the largest of several peaks is the one that
     /// counts. Beside a force at the corner of a tooth, within an element, they see unlike stress.
@@ -193,6 +241,40 @@ impl RootStress {
         windowed: &WindowedPair,
         loads: Option<&[Vec<f64>; 2]>,
     ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        self.each(windowed, loads, |_, _, peaks| peaks)
+    }
+
+    /// The same fillets with the stress at all their places.
+    ///
+    /// # Errors
+    /// As of [`RootStress::of`].
+    pub fn fields(
+        &self,
+        windowed: &WindowedPair,
+        loads: Option<&[Vec<f64>; 2]>,
+    ) -> Result<[Vec<FilletField>; 2], StaticError> {
+        self.each(windowed, loads, |roots, (i, fillet, stress), peaks| {
+            let nodes = &windowed.gears[i].gear().mesh().nodes;
+            let place = |at: usize| {
+                let [x, y, z] = nodes[roots.nodes[at] as usize];
+                FilletPlace {
+                    radius: x.hypot(y),
+                    z,
+                    max_principal: fem::max_principal(&stress[at]),
+                    min_principal: fem::min_principal(&stress[at]),
+                }
+            };
+            FilletField { peaks, places: fillet.places().map(place).collect() }
+        })
+    }
+
+    /// Something of every fillet of both windows, by its roots, gear and stress from the free surface, and its peaks.
+    fn each<T>(
+        &self,
+        windowed: &WindowedPair,
+        loads: Option<&[Vec<f64>; 2]>,
+        of: impl Fn(&WindowRoots, (usize, &Fillet, &[[f64; 6]]), FilletStress) -> T,
+    ) -> Result<[Vec<T>; 2], StaticError> {
         let mut both = [Vec::new(), Vec::new()];
         for (i, result) in both.iter_mut().enumerate() {
             let fail = |source| ContactError::Reduction { gear: NAMES[i], source };
@@ -201,7 +283,8 @@ impl RootStress {
                 Some(loads) => roots.stress(&loads[i]).map_err(fail)?,
                 None => [(); 2].map(|()| vec![[0.0; 6]; roots.nodes.len()]),
             };
-            *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, windowed, i)).collect();
+            let one = |f: &Fillet| Some(of(&roots, (i, f, &stress[0]), roots.fillet(f, &stress, windowed, i)?));
+            *result = roots.fillets.iter().filter_map(one).collect();
         }
         Ok(both)
     }

@@ -41,6 +41,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(Part::more().with(Content::Html(render("gearbox_view.html", view)?)));
     page.push(meshes(result));
     page.push(pairs(file, result));
+    page.push(roots(file, result));
     planets(file, result).into_iter().for_each(|part| page.push(part));
     let rated = result.meshes.iter().filter_map(|m| Some((m.name.as_str(), m.rating.as_ref()?)));
     rated.flat_map(|(name, own)| rating::parts(own, Some(name))).for_each(|part| page.push(part));
@@ -106,6 +107,33 @@ fn planets(file: &Gearbox, result: &GearboxResult) -> Option<Part> {
              even load.",
         )
     })
+}
+
+/// Root stress of every gear that a mesh knows it of, in all its meshes.
+fn roots(file: &Gearbox, result: &GearboxResult) -> Part {
+    let known = file.gears.iter().zip(&result.root_bending).filter_map(|(gear, own)| Some((gear, own.as_ref()?)));
+    let rows: Vec<_> = known
+        .flat_map(|(gear, both)| both.iter().map(move |own| (gear, own)))
+        .map(|(gear, own)| {
+            vec![
+                Cell::text(&gear.name),
+                Cell::text(own.side.name()),
+                Cell::number(own.largest, 1),
+                Cell::number(own.least, 1),
+                Cell::number(own.range(), 1),
+                Cell::number(own.ratio(), 3),
+                Cell::number(own.error_percent, 1),
+            ]
+        })
+        .collect();
+    if rows.is_empty() {
+        return Part::more();
+    }
+    let head = ["gear", "side", "largest MPa", "smallest MPa", "range MPa", "R", "error %"];
+    Part::new("Tooth root stress").closing().grid(Grid::new(head).rows(rows)).note(
+        "Largest tension in the fillets on each side of the teeth, and the smallest stress at its place, over all positions \
+         and all meshes of the gear. R: smallest over largest stress.",
+    )
 }
 
 fn pairs(file: &Gearbox, result: &GearboxResult) -> Part {

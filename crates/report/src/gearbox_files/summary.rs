@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use analysis::accuracy::Accuracy;
-use analysis::gearbox::{BearingLoad, GearboxResult, MeshResult, RollingLoad, VibrationResult};
+use analysis::gearbox::{BearingLoad, GearboxResult, MeshResult, RollingLoad, RootBending, VibrationResult};
 use analysis::pair_rating::RatingHeadline;
 use answer::keyed;
 use described::Key;
 use gearbox::{LoadSharing, PlanetShare, rolling_bearing::RollingElements};
 use geometry::GearPair;
-use scene::gearbox::{Gearbox, GearboxPlanets, GearboxVibration, PlanetMesh};
+use scene::gearbox::{Gearbox, GearboxGear, GearboxPlanets, GearboxVibration, PlanetMesh};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -27,6 +27,9 @@ described::described! {
         shafts: Vec<ShaftSummary<'a>>,
         /// meshes, in the order of the file
         meshes: Vec<MeshSummary<'a>>,
+        /// root stress of the gears that a mesh knows it of; missing without `root_stress = true` in the scene of a mesh
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        root_stress: Vec<RootSummary<'a>>,
         /// bearings, in the order of the file
         bearings: Vec<BearingSummary<'a>>,
         /// outputs, in the order of the torques
@@ -92,6 +95,25 @@ described::described! {
         rating: Option<&'a RatingHeadline>,
         /// angle by which the wheel has to be set against its key where the train closes a ring, so that all flanks touch; 0 otherwise
         timing_deg: f64,
+    }
+
+    /// Root fillets on one side of the teeth of a gear, over all positions and meshes of the gear.
+    #[derive(Serialize)]
+    struct RootSummary<'a> {
+        /// name of the gear
+        gear: &'a str,
+        /// side of the teeth: left is the counter-clockwise one, seen from +z
+        side: &'static str,
+        /// largest first principal stress, tension
+        max_root_stress_mpa: f64,
+        /// estimated distance of that from an infinitely fine mesh
+        estimated_error_percent: f64,
+        /// smallest third principal stress at that place: compression below 0
+        min_root_stress_mpa: f64,
+        /// difference of both
+        root_stress_range_mpa: f64,
+        /// R: smallest over largest stress; `null` without tension
+        root_stress_ratio: Option<f64>,
     }
 
     /// A mesh that planets have in common, over all positions.
@@ -287,10 +309,11 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 13] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 14] = [
     ("the summary of a gearbox", GearboxSummary::KEYS),
     ("shafts", ShaftSummary::KEYS),
     ("meshes, a gearbox", MeshSummary::KEYS),
+    ("root_stress, a gearbox", RootSummary::KEYS),
     ("planets", PlanetsSummary::KEYS),
     ("bearings, a gearbox", BearingSummary::KEYS),
     ("rolling", RollingSummary::KEYS),
@@ -311,6 +334,7 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
         accuracy: result.accuracy.as_ref(),
         shafts: ratios.map(|(shaft, ratio)| ShaftSummary { name: &shaft.name, ratio: *ratio }).collect(),
         meshes: result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair)).collect(),
+        root_stress: roots(file, result),
         bearings: result.bearings.iter().map(bearing).collect(),
         outputs: outputs
             .map(|o| OutputSummary { mean_lag_urad: 1e6 * o.mean, peak_to_peak_lag_urad: 1e6 * o.peak_to_peak })
@@ -321,6 +345,22 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
         branch: result.branch.as_ref().map(|own| BranchSummary::new(result, own)),
         vibration: file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own)),
     })
+}
+
+fn roots<'a>(file: &'a Gearbox, result: &GearboxResult) -> Vec<RootSummary<'a>> {
+    let of_gear = |(gear, both): (&'a GearboxGear, &Option<[RootBending; 2]>)| {
+        let one = |own: RootBending| RootSummary {
+            gear: &gear.name,
+            side: own.side.name(),
+            max_root_stress_mpa: own.largest,
+            estimated_error_percent: own.error_percent,
+            min_root_stress_mpa: own.least,
+            root_stress_range_mpa: own.range(),
+            root_stress_ratio: own.ratio(),
+        };
+        both.map(|both| both.map(one)).into_iter().flatten()
+    };
+    file.gears.iter().zip(&result.root_bending).flat_map(of_gear).collect()
 }
 
 fn planets<'a>(((own, mesh), sharing): ((&'a GearboxPlanets, &'a PlanetMesh), &LoadSharing)) -> PlanetsSummary<'a> {

@@ -10,6 +10,7 @@ use super::loads::{apart, loaded};
 use super::mesh_cycles::fastest_per_turn;
 use super::modes::modes;
 use super::motion::{Asked, GearboxMotion, asked};
+use super::one_gear::one_shape;
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, mesh_name, place, place_of_gear};
 use super::planets::written_out;
@@ -67,6 +68,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let torques = all(&raw.torque, |t| torque(s, t, &names))?;
     apart(s, &raw.mesh, &meshes)?;
     meshes.iter_mut().zip(&raw.mesh).try_for_each(|(mesh, table)| place_axes(s, table, mesh, (&shafts, &gears)))?;
+    one_shape(s, &raw.mesh, (&meshes, &gears))?;
     loaded(s, &raw.mesh, (&meshes, &gears, &shafts), (&input, &torques))?;
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let planets = written.planets(s, &raw.planets, (&shafts, &gears, &meshes))?;
@@ -194,7 +196,6 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     }
     let own = &scene.output;
     let files = [
-        ("root_stress", own.root_stress),
         ("contact_lines", own.contact_lines),
         ("parquet", own.parquet),
         ("vtu", own.vtu),

@@ -10,6 +10,7 @@
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling`, `designation`, `seats` | bearings of a stiffness, and those with rolling elements; which a designation says; where they sit |
 //! | `planets` | parts of one planet, written out for all |
+//! | `one_gear` | gears of several meshes, of which all scenes say the same |
 //! | `of_pair`, `whole_pair` | the gearbox that a pair is the short form of: its mesh, and what it has beside that |
 //! | `schema`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
@@ -24,6 +25,7 @@ mod mesh_cycles;
 mod modes;
 mod motion;
 mod of_pair;
+mod one_gear;
 mod pair_setting;
 mod parts;
 mod planets;

@@ -181,7 +181,7 @@ choices! {
 table! {
     /// `[output]`
     OUTPUT, RawOutput => OutputScene Eq: "what is computed and written on request"; {
-        root_stress: switch(false), "stress in the root fillets at every position or row (reduced and full at rest, reduced in motion)";
+        root_stress: switch(false), "stress in the root fillets at every position or row (reduced and full at rest, reduced in motion, meshes of gearboxes at rest)";
         contact_lines: switch(false), "contact_lines.csv: every loaded slice of every position (method slice)";
         parquet: switch(false) as written_parquet, "every table column by column as well: history.parquet beside history.csv, for long runs";
         vtu: switch(false), "ParaView files, as `--vtu`: at rest, and of one motion of the model reduced without checkpoints";

@@ -417,18 +417,39 @@ fn loads_over_time_act_in_motion() {
     assert!(settled.to_string().contains("its period is none of the meshes"), "{settled}");
 }
 
+/// A gear in two meshes has one shape: what two scenes say of it differs in nothing, and the refusal names key, values and
+/// meshes; a scene that leaves to the program what the other one says is told so.
+#[test]
+fn a_gear_of_two_meshes_has_one_shape() {
+    let path = folder().join("idler.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(Gearbox::parse(&text, &path).is_ok());
+    let of_second = text.find("name = \"idler, wheel\"").unwrap();
+    let refused = |from: &str, to: &str| {
+        let (before, after) = text.split_at(of_second);
+        let text = before.to_owned() + &after.replacen(from, to, 1);
+        Gearbox::parse(&text, &path).map(|_| ()).expect_err(to)
+    };
+    for (from, to, said) in [
+        ("bore_diameter_mm = 50.0", "bore_diameter_mm = 48.0", "`bore_diameter_mm` 50 in mesh"),
+        ("bore_diameter_mm = 50.0\n", "", "`bore_diameter_mm` 50 in mesh"),
+        ("teeth = 31", "profile_shift = 0.1\nteeth = 31", "`profile_shift` 0 in mesh"),
+        ("teeth = 31", "tip_diameter_mm = 101.0\nteeth = 31", "`tip_diameter_mm` its default in mesh"),
+        ("-15.0", "-14.9", "`helix_angle_deg`"),
+    ] {
+        let error = refused(from, to);
+        let told = error.to_string();
+        assert!(told.contains("gear \"idler\" has") && told.contains(said), "{told}");
+        assert!(told.contains("pinion, idler") && told.contains("idler, wheel") && error.hint().is_some(), "{told}");
+    }
+}
+
 /// What a gearbox does not read is refused where it stands, with what to do: files that only a pair writes, bodies of a pair,
 /// settings of maps without maps, and a motion that begins without a load.
 #[test]
 fn what_a_gearbox_does_not_read_is_refused() {
     let slices = "set = [\"contact.slices=16\"]";
-    for key in [
-        "root_stress=true",
-        "vtu=true",
-        "contact_lines=true",
-        "parquet=true",
-        "derivatives=[\"pair.misalignment.deviation_um\"]",
-    ] {
+    for key in ["vtu=true", "contact_lines=true", "parquet=true", "derivatives=[\"pair.misalignment.deviation_um\"]"] {
         let complaint = refused(slices, &format!("set = ['output.{key}']"));
         let (name, _) = key.split_once('=').unwrap();
         let said = format!("asks for `{name}` in [output]");
