@@ -42,7 +42,7 @@ impl Source<'_> {
     }
 
     /// The whole number of a key, or `default`, within `low..=high`; `about` says what the key means, to a complaint alone.
-    fn whole_within<'a>(
+    pub(crate) fn whole_within<'a>(
         &self,
         key: &str,
         value: &Whole,

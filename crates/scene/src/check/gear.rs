@@ -130,7 +130,7 @@ pub(super) fn gear(
     let counted =
         |z: &i64| z.checked_neg().filter(|n| ring && (i64::from(fewest)..=i64::from(most)).contains(n)).unwrap_or(*z);
     let count = raw.teeth.as_ref().map(|z| Spanned::new(z.span(), counted(z.get_ref())));
-    let teeth = s.whole("teeth", &count, fewest, fewest, most)?;
+    let teeth = s.whole_within("teeth", &count, fewest, [fewest, most], || GEAR.about("teeth"))?;
     let read = GearScene::read(s, raw, f64::INFINITY)?;
     let width = read.face_width_mm.unwrap_or(pair.face_width_mm);
     let helix_angle_deg = match hand {
