@@ -9,9 +9,13 @@ holes with 72 % of its height. Bore and flanks keep their names. Needs the Pytho
 """
 
 import argparse
+import sys
 
-import gmsh
-import numpy as np
+try:
+    import gmsh
+    import numpy as np
+except ImportError as missing:
+    sys.exit(f"holes.py: {missing}\nhint: python3 -m venv v && v/bin/pip install gmsh numpy, then v/bin/python holes.py ...")
 
 
 def elements(dimension):

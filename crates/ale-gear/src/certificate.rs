@@ -17,6 +17,6 @@ pub(crate) struct Written {
     pub verdict: Result<(), CommandError>,
     /// The answer itself.
     pub solved: Solved,
-    /// What it took, as `summary.json` has it.
+    /// Cost of the run, as in `summary.json`.
     pub cost: Cost,
 }

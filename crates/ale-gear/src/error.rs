@@ -48,8 +48,8 @@ impl CommandError {
         let (red, blue, cyan, plain) =
             if coloured { ("\x1b[1;31m", "\x1b[34m", "\x1b[36m", "\x1b[0m") } else { ("", "", "", "") };
         let excerpt = self.excerpt.iter().map(|e| format!("{blue}{}{plain}\n", printed::plain(e)));
-        let hint = self.hint.iter().map(|h| format!("{cyan}hint:{plain} {}\n", printed::message(h)));
-        format!("{red}ale-gear:{plain} {}\n", printed::message(&self.message))
+        let hint = self.hint.iter().map(|h| format!("{cyan}hint:{plain} {}\n", printed::message(&printed::units(h))));
+        format!("{red}ale-gear:{plain} {}\n", printed::message(&printed::units(&self.message)))
             + &excerpt.chain(hint).collect::<String>()
     }
 

@@ -11,7 +11,7 @@ pub use analysis::facts::*;
 pub struct ForFiles {
     /// The answer.
     pub solved: SolvedAtRest,
-    /// What it took.
+    /// Cost of the run.
     pub facts: RunInfo,
     /// The gears in space; `None` for a model without meshes, and where nobody asked.
     pub view: Option<View>,

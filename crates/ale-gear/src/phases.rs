@@ -212,7 +212,7 @@ impl Phases {
         self.highest
     }
 
-    /// What it all cost so far.
+    /// Cost of all phases so far.
     pub fn cost(&self) -> Cost {
         Cost {
             threads: rayon::current_num_threads(),

@@ -34,6 +34,17 @@ pub fn message(text: &str) -> String {
     shown.join("\n")
 }
 
+/// A message with its units as SI writes them, [`answer::shown_units`]; what is quoted stays as it is typed.
+pub fn units(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for part in text.split_inclusive(['`', '"']) {
+        // What stands before a closing mark is behind an odd number of them.
+        let quoted = shown.matches(['`', '"']).count() % 2 == 1;
+        shown.push_str(&if quoted { part.to_owned() } else { answer::shown_units(part) });
+    }
+    shown
+}
+
 fn cut_line(line: &str) -> String {
     let words = line.split(' ').map(|word| {
         let [most, first, last] = WORD;
@@ -131,6 +142,12 @@ mod tests {
         }
         let name = format!("a/{0}.toml run-{1} {0}x v{0}", "1".repeat(40), "a1");
         assert_eq!(message(&name), name, "digits of names");
+    }
+
+    #[test]
+    fn units_are_those_of_si_where_nothing_is_quoted() {
+        let said = "mean_ste_um is 9.3 um at 200 N m, not \"1 um\"; `5 um 2 N m` of 3 um";
+        assert_eq!(units(said), "mean_ste_um is 9.3 µm at 200 N·m, not \"1 um\"; `5 um 2 N m` of 3 µm");
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub(crate) fn progress_after_s() -> Option<u64> {
 /// Says a line on stderr if that much is wanted.
 pub(crate) fn say<D: Display>(from: Verbosity, line: impl FnOnce() -> D) {
     if verbosity() >= from {
-        write(&printed::message(&line().to_string()));
+        write(&printed::message(&printed::units(&line().to_string())));
     }
 }
 

@@ -157,7 +157,7 @@ impl AnalysisError {
         })
     }
 
-    /// That there is no bound of a quantity that a scene asks for.
+    /// The error that there is no bound of a quantity that a scene asks for.
     pub fn without_bound(scene: &Scene, quantity: scene::Quantity) -> Self {
         in_scene(scene)(Refusal::no_bound(quantity))
     }
@@ -238,12 +238,12 @@ pub(crate) fn failed_modes(scene: &Scene, i: usize, source: ReductionError) -> A
     AnalysisError::from(source).of_part(format!("modes of the {gear}")).in_file(&scene.file)
 }
 
-/// That a scene does not ask for what is wanted of it.
+/// The error that a scene does not ask for what is wanted of it.
 pub(crate) fn unasked(scene: &Scene, wanted: &str) -> AnalysisError {
     in_scene(scene)(Refusal::unasked(wanted))
 }
 
-/// That the model of a scene reduces no gears.
+/// The error that the model of a scene reduces no gears.
 pub(crate) fn nothing_to_reduce(scene: &Scene) -> AnalysisError {
     let hint = "use `model = \"reduced\"` in [analysis], or `--set analysis.model=reduced`";
     AnalysisError::from(Refusal::input("this model reduces nothing", hint)).at(place_in(scene, &["analysis.model"]))

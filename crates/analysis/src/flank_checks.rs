@@ -24,7 +24,7 @@ pub(crate) struct NamedFlanks<'a> {
 
 /// What may be wrong with a whole mesh: where a point of it should lie, and on the flank of which tooth and side.
 struct Mistake<'a> {
-    /// What it is, for the hint.
+    /// Words of the hint.
     hint: String,
     place: Box<dyn Fn(Vec3) -> Vec3 + 'a>,
     tooth: i64,

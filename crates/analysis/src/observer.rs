@@ -55,7 +55,7 @@ pub trait Observer {
 
 /// Hears of the phases, and knows what they cost.
 pub trait Recorder: Observer {
-    /// What it all cost so far.
+    /// Cost of all phases so far.
     fn cost(&self) -> Cost;
 }
 

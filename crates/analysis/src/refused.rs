@@ -24,29 +24,29 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    /// That the input is wrong.
+    /// The error that the input is wrong.
     pub(crate) fn input(what: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { what: what.into(), hint: Some(hint.into()), blame: Blame::Input }
     }
 
-    /// That no result came out of a sound input.
+    /// The error that no result came out of a sound input.
     pub(crate) fn no_result(what: impl Into<String>, hint: Option<String>) -> Self {
         Self { what: what.into(), hint, blame: Blame::NoResult }
     }
 
-    /// That a scene does not ask for what is wanted of it.
+    /// The error that a scene does not ask for what is wanted of it.
     pub(crate) fn unasked(wanted: &str) -> Self {
         let hint = "`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what";
         Self::input(format!("no {wanted}"), hint)
     }
 
-    /// That a scene asks for bounds of an analysis that gives none.
+    /// The error that a scene asks for bounds of an analysis that gives none.
     pub(crate) fn with_accuracy() -> Self {
         let hint = "`analysis::solve` gives bounds; without `[accuracy]` this analysis solves it";
         Self::input("an accuracy is asked for", hint)
     }
 
-    /// That an accuracy is asked of a number that has no bound.
+    /// The error that an accuracy is asked of a number that has no bound.
     pub(crate) fn no_bound(quantity: scene::Quantity) -> Self {
         let key = quantity.key();
         Self::input(

@@ -170,7 +170,7 @@ impl SolvedLoad {
         })
     }
 
-    /// That of a load of the spectrum.
+    /// Result of a load of the spectrum.
     pub fn under<'a>(all: &'a [Self], load: &LoadBin) -> Option<&'a Self> {
         // A torque comes back from N mm.
         all.iter().find(|own| (own.torque_nm - load.torque_nm).abs() <= 1e-12 * load.torque_nm)

@@ -38,7 +38,7 @@ pub struct StaticResult {
     pub pair: GearPair,
     /// Position by position, with remarks.
     pub history: StaticHistory,
-    /// What it was made of.
+    /// Facts about the model and its meshes.
     pub facts: RunInfo,
     /// The model with its reduced gears, for more of the same; `None` for a model without meshes.
     pub model: Option<StaticModel>,

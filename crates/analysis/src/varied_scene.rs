@@ -11,7 +11,7 @@ use crate::{AnalysisError, failure::Failure, options::options, refused::Refusal}
 pub struct VariedScene {
     /// With less, and with more.
     pub sides: [Scene; 2],
-    /// By how much, in the parameter's unit.
+    /// Amount of the change, in the unit of the parameter.
     pub steps: [f64; 2],
 }
 

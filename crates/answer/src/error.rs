@@ -13,7 +13,7 @@ pub enum TableError {
     Parquet {
         /// Name of the table.
         table: String,
-        /// What it says.
+        /// Error of the Parquet writer.
         cause: ParquetError,
     },
     /// The system refuses to write a Parquet file.
@@ -43,7 +43,7 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// That the system refuses the file of rows.
+    /// The error that the system refuses the file of rows.
     pub(crate) fn kept(cause: io::Error) -> Self {
         Self::Kept { folder: std::env::temp_dir(), cause }
     }

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | [`Table`], [`Column`] | columns of numbers or texts; name, unit and meaning stand once |
 //! | [`unit_of`], [`shown_units`] | the unit that a name ends with, and units as people read them |
+//! | [`label_of`] | a key in words, for titles and axes |
 //! | [`csv`] | numbers and texts as fields of a file with commas |
 //! | [`write_table`], [`write_parquet`] | the files of a table |
 //! | [`RowStore`], [`RowColumn`] | rows of a motion in constant memory, and columns of a table that are read off them |
@@ -24,6 +25,7 @@ mod columnar;
 mod cost;
 pub mod csv;
 mod error;
+mod label;
 mod leaves;
 mod numbers;
 mod remark;
@@ -37,6 +39,7 @@ pub use answer::{Answer, keyed};
 pub use check::{Check, Checks, FailedCheck};
 pub use cost::{Cost, Phase};
 pub use error::TableError;
+pub use label::label_of;
 pub use leaves::leaves;
 pub use numbers::{Numbers, json};
 pub use remark::{Remark, RemarkKind, RemarkValue, digits};

@@ -81,7 +81,7 @@ impl From<String> for RemarkValue {
 /// One kind of remark: a row of a table that [`remarks!`](crate::remarks) makes.
 #[derive(Debug)]
 pub struct RemarkKind {
-    /// What programs know it by.
+    /// Stable name for programs.
     pub code: &'static str,
     /// Names of its values, with their units, in their order.
     pub values: &'static [&'static str],
@@ -132,7 +132,7 @@ impl Remark {
         Self { about: Some(name.to_owned()), ..self }
     }
 
-    /// What programs know it by.
+    /// Stable name for programs.
     pub fn code(&self) -> &'static str {
         self.kind.code
     }

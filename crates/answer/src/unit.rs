@@ -101,7 +101,8 @@ pub fn shown_units(text: &str) -> String {
     shown
 }
 
-fn ending(name: &str) -> Option<(&'static str, &'static str)> {
+/// Ending of a name that is its unit, and the unit.
+pub(crate) fn ending(name: &str) -> Option<(&'static str, &'static str)> {
     let of = |(ending, _): &&(&str, &str)| {
         name.strip_suffix(ending).is_some_and(|rest| rest.is_empty() || rest.ends_with('_'))
     };

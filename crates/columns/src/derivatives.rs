@@ -6,7 +6,7 @@ use ltca::{PositionRates, Sensitivity, StaticPosition};
 /// A derivative by a key: what it is of, its meaning, and its number, per unit of the key.
 type Rate = (&'static str, &'static str, fn(&Sensitivity) -> f64);
 
-/// Those that stand once.
+/// Columns that occur once.
 const RATES: [Rate; 6] = [
     (
         "d_ste_um",

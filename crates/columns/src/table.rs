@@ -41,7 +41,7 @@ pub struct Column<R: Rows> {
     pub name: &'static str,
     /// Unit as in a text; nothing for numbers without one.
     pub unit: &'static str,
-    /// What it says, as in the table of `docs/outputs.md`.
+    /// Meaning of the column, as in the table of `docs/outputs.md`.
     pub meaning: &'static str,
     /// Whether files of this layout have it.
     pub present: fn(&R::Layout, At) -> bool,

@@ -28,7 +28,7 @@ pub struct MapWork {
     pub of_contacts: usize,
 }
 
-/// Hears how far a map is made, from any thread.
+/// Receives the progress of a map; any thread may call it.
 pub type MapWatch<'a> = &'a (dyn Fn(MapWork) + Sync);
 
 /// Phases of a mesh cycle, forces and tilts (in intervals) of the first map, and most of them.

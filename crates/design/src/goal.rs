@@ -9,7 +9,7 @@ use serde::Serialize;
 pub struct Curve {
     /// Which sample of what scatters it belongs to, from 0.
     pub sample: usize,
-    /// What it counts beside the other curves of its sample, above 0.
+    /// Weight beside the other curves of its sample, above 0.
     pub weight: f64,
     /// Values.
     pub values: Vec<f64>,

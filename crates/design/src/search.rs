@@ -103,7 +103,7 @@ impl Search {
     /// squares (Gauss and Newton), which see the whole curve; then peaks themselves go into a linear programme.
     ///
     /// # Errors
-    /// That of the evaluation of the start; later ones count as bad designs.
+    /// Failure of the evaluation of the start. Later failures count as bad designs.
     pub fn run<E>(
         &self,
         start: &[f64],

@@ -38,7 +38,7 @@ const TILTING_LOADS: f64 = 4.0;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MapFailure {
     /// A map does not hold what the contact depends on.
-    #[error("no map of the contact holds {what}")]
+    #[error("maps of the contact do not depend on {what}")]
     Unmapped {
         /// What, and why.
         what: &'static str,

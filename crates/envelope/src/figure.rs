@@ -29,7 +29,7 @@ pub enum Asked {
 pub struct Shown {
     /// What was found.
     pub value: Value,
-    /// What it must be.
+    /// Limit of the figure.
     pub asked: Asked,
 }
 

@@ -55,7 +55,7 @@ impl<'a> MotionFileSink<'a> {
         Self { fields: Some(FieldWriter::new(self.scene, results)), ..self }
     }
 
-    /// That the meshes are those of the checkpoint.
+    /// Checks that the meshes are those of the checkpoint.
     fn check_inputs(&self) -> Result<(), CheckpointError> {
         self.from.map_or(Ok(()), |stored| stored.check_meshes(self.scene, &self.meshes))
     }

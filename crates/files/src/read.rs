@@ -44,7 +44,7 @@ pub fn read_regular_text(path: &Path, most: u64) -> Result<String> {
     String::from_utf8(read_regular_file(path, most)?).map_err(|_| no_text())
 }
 
-/// That a file is no text.
+/// The error that a file is no text.
 pub fn no_text() -> Error {
     Error::new(ErrorKind::InvalidData, NO_TEXT)
 }

@@ -71,13 +71,13 @@ pub enum GearboxError {
         source: RollingBearingError,
     },
     /// Rolling elements where springs are needed.
-    #[error("bearing {bearing} has a law, and what swings or moves is linear")]
+    #[error("bearing {bearing} has rolling elements, and this analysis needs a linear stiffness")]
     NotLinear {
         /// Name of the bearing.
         bearing: String,
     },
     /// A gear of a motion in time has elastic modes.
-    #[error("gear {gear} has elastic modes, and a motion in time has rigid gears beside their teeth")]
+    #[error("gear {gear} has elastic modes; in this motion gears are rigid except for their teeth")]
     ModesInMotion {
         /// Name of the gear.
         gear: String,
@@ -101,7 +101,7 @@ pub enum GearboxError {
         said: &'static str,
     },
     /// Shooting with modes that a turn by teeth does not map into each other.
-    #[error("shooting with elastic modes: those of gear {gear} do not go over into each other from tooth to tooth")]
+    #[error("shooting with elastic modes: the modes of gear {gear} are not alike for all teeth")]
     ModesWithoutPeriod {
         /// Name of the gear.
         gear: String,
@@ -115,7 +115,7 @@ pub enum GearboxError {
         source: ReductionError,
     },
     /// A part names a shaft that is not there.
-    #[error("{part} is on shaft {shaft}, and there are {count} (they count from 0)")]
+    #[error("{part} is on shaft {shaft}: shafts are numbered from 0, and there are {count}")]
     NoShaft {
         /// Name of the part.
         part: String,
@@ -135,7 +135,7 @@ pub enum GearboxError {
         count: usize,
     },
     /// Something else at the cross-section that a disc with a reach moves with.
-    #[error("{other} is at the cross-section of the shaft that {disc} moves with")]
+    #[error("{other} has the same place on the shaft as the seat of {disc}")]
     SharedSeat {
         /// Name of the disc with a reach.
         disc: String,
@@ -267,7 +267,7 @@ pub enum GearboxError {
         pair_mm: f64,
     },
     /// Two ways through the train turn a shaft unlike.
-    #[error("shaft {shaft} would turn {} and {} times the input's turns", ratios[0], ratios[1])]
+    #[error("the meshes give shaft {shaft} two speeds: {} and {} times that of the input", ratios[0], ratios[1])]
     Ratios {
         /// Name of the shaft.
         shaft: String,
@@ -321,7 +321,7 @@ pub enum GearboxError {
     #[error(transparent)]
     Seat(#[from] SeatError),
     /// A bearing that holds a shaft which has to turn.
-    #[error("{bearing} has stiffness or damping for the turn about its axis: its shaft could not run")]
+    #[error("{bearing} has stiffness or damping for the rotation about its axis, so its shaft could not rotate")]
     HeldTurn {
         /// Name of the bearing.
         bearing: String,

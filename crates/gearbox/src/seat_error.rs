@@ -61,7 +61,7 @@ pub enum SeatError {
         fixed: String,
     },
     /// A shaft that stands and is held.
-    #[error("shaft {shaft} stands and is held: nothing of it moves")]
+    #[error("shaft {shaft} is fixed and held, so nothing of it moves")]
     Nothing {
         /// Name of the shaft.
         shaft: String,

@@ -156,7 +156,8 @@ impl Flank {
         [profile, Vec3::new(-self.twist * p.y, self.twist * p.x, 1.0)]
     }
 
-    /// Roll angles between which the flank reaches, the lower first: from the root form circle to the tip circle, of an internal gear from the tip circle on.
+    /// Roll angles at the two ends of the flank, the smaller first. An external flank begins at its root form circle and
+    /// ends at its tip circle; an internal flank begins at its tip circle.
     pub fn roll_range(&self) -> [f64; 2] {
         [self.roll_form.min(self.roll_tip), self.roll_form.max(self.roll_tip)]
     }

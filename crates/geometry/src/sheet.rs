@@ -112,7 +112,7 @@ described::described! {
 }
 
 described::described! {
-    /// What it says of one gear.
+    /// Sheet of one gear.
     #[derive(Debug, Clone, PartialEq, Serialize)]
     pub struct GearSheet {
         /// number of teeth, negative of an internal gear, as its diameters are

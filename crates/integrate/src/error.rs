@@ -93,7 +93,7 @@ pub enum MotionError<E> {
         value: f64,
     },
     /// The motion comes to a stop before a cycle is over.
-    #[error("the motion stands still before cycle {cycle} is over")]
+    #[error("the rotation stops before cycle {cycle} is complete")]
     StandsStill {
         /// Cycle, counted from the start of the motion.
         cycle: u64,
@@ -120,9 +120,7 @@ impl<E> MotionError<E> {
     /// Hint: an action that cures the error.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Mechanism { .. } => {
-                "see the message; a smaller step often keeps the motion within reach of the contact search"
-            }
+            Self::Mechanism { .. } => "take smaller steps: raise the number of steps per cycle",
             Self::NotConverged { .. } => {
                 "take a smaller fixed step (`steps_per_mesh_cycle`, of a gearbox `steps_per_cycle`), or let the error control choose it (`error_tolerance`)"
             }

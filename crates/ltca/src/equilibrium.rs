@@ -23,7 +23,7 @@ use crate::{
 pub struct Equilibrium {
     /// Station of the mesh cycle.
     pub station: Station,
-    /// Poses of the matrices' frames of both gears.
+    /// Poses of both gears, in the frames in which their compliance matrices are given.
     pub poses: [Pose; 2],
     /// Rotation of the driven gear from the unloaded position, rad, about +z.
     pub rotation: f64,

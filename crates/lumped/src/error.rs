@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum LumpedError {
     /// An input is outside of what the formula is stated for.
-    #[error("{quantity} = {value} is outside of what {method} is stated for: {allowed}")]
+    #[error("{quantity} = {value} is outside the range of {method}: {allowed}")]
     OutOfRange {
         /// Name of the input.
         quantity: &'static str,
@@ -86,13 +86,13 @@ pub enum LumpedError {
         station: usize,
     },
     /// A shaft that no chain of meshes joins to shaft 0.
-    #[error("shaft {shaft} meshes with nothing that turns with shaft 0")]
+    #[error("no mesh connects shaft {shaft} with shaft 0")]
     NotConnected {
         /// Shaft, from 0.
         shaft: usize,
     },
     /// Chains of meshes that ask for different speeds of one shaft.
-    #[error("shaft {shaft} would have to turn {} and {} times as fast as shaft 0", ratios[0], ratios[1])]
+    #[error("the meshes give shaft {shaft} two speeds: {} and {} times that of shaft 0", ratios[0], ratios[1])]
     Ratios {
         /// Shaft, from 0.
         shaft: usize,

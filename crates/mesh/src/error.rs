@@ -73,7 +73,7 @@ pub enum MeshError {
         group: String,
         /// Corner nodes of the face, by tag.
         nodes: Vec<u64>,
-        /// What it is instead.
+        /// What they are instead.
         what: &'static str,
     },
     /// The flanks of the given gear are not in the mesh.

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::quality::{element_volume, positions};
+use crate::tips::between_tips;
 use crate::{Face, GroupNames, Mesh, SurfaceGroup, element::FaceQuadraturePoint};
 
 /// Summary of a mesh. Lengths in mm.
@@ -56,8 +57,8 @@ pub struct LikelyGear {
     pub face_width: f64,
     /// Number of teeth with a named flank.
     pub named_teeth: usize,
-    /// Number of teeth of the whole gear, from the angle between flanks of neighbouring teeth
-    /// or between the cuts.
+    /// Number of teeth of the whole gear, from the angle between flanks of neighbouring teeth, between the cuts or, where
+    /// no group is named, between tips.
     pub teeth: Option<u32>,
     /// Angle about z that holds all nodes, deg; 360 for a whole gear.
     pub angle_deg: f64,
@@ -201,6 +202,7 @@ fn likely_gear(mesh: &Mesh, names: &GroupNames, tip_radius: f64, face_width: f64
         // One tooth of a ring goes on clockwise.
         Some(if named.len() == 1 { around.min(TAU - around) } else { around / named.len() as f64 })
     });
+    let pitch = pitch.or_else(|| if named.is_empty() { between_tips(mesh) } else { None });
     let teeth = pitch.map(|p| TAU / p).filter(|z| (3.0..1e5).contains(z)).map(|z| z.round() as u32);
     LikelyGear { bore_radius, tip_radius, face_width, named_teeth: named.len(), teeth, angle_deg: angle_held(mesh) }
 }

@@ -22,6 +22,7 @@ mod quality;
 mod root_fillets;
 mod sector;
 pub mod structured;
+mod tips;
 
 pub use bore_coupling::BoreCoupling;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};

@@ -12,7 +12,7 @@ pub struct Numbered {
 }
 
 impl Numbered {
-    /// The last number of a name; `None` where it has none, or one of some twenty digits.
+    /// The last number in a name. `None` where the name has no number, or where its number does not fit into 64 bits.
     ///
     /// ```
     /// # use mesh::Numbered;

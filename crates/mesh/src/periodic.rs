@@ -26,7 +26,7 @@ pub(crate) struct Turn {
 }
 
 impl Turn {
-    /// By an angle, rad, counter-clockwise seen from +z.
+    /// Rotates by an angle, rad, counter-clockwise seen from +z.
     pub(crate) fn new(angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self { sin, cos }

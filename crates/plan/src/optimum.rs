@@ -53,7 +53,7 @@ pub fn goal_of(numbers: &[Vec<f64>], goals: usize) -> f64 {
     all.sum::<f64>() / (goals * numbers.len().max(1)) as f64
 }
 
-/// Unit of the mean of the goals, where they all have one.
+/// Unit of the mean of the goals; empty where the goals have different units.
 pub fn goal_unit(plan: &NumberOptimisation) -> String {
     let mut units = plan.goal_names().map(answer::unit_of);
     let first = units.next().unwrap_or_default();

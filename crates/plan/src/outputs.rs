@@ -80,7 +80,12 @@ fn of_rows(machine: &Machine, column: &str) -> Result<(), Missing> {
         return Ok(());
     }
     let names: Vec<&str> = all.iter().map(String::as_str).collect();
-    let hint = column_advice(column, &names).unwrap_or_else(|| SEE.into());
+    let alike = alike(column, &names);
+    let hint = match column_advice(column, &names) {
+        Some(near) if alike.is_empty() || near.starts_with("did") => near,
+        _ if alike.is_empty() => SEE.into(),
+        _ => format!("it has `{}`", alike.join("`, `")),
+    };
     Err((format!("{} has no column `{column}`", rows_file(machine)), hint))
 }
 
@@ -88,7 +93,11 @@ fn of_headline(keys: &[(&'static str, Holds)], wanted: &str) -> Result<(), Missi
     let (name, below) = wanted.split_once('.').map_or((wanted, None), |(name, below)| (name, Some(below)));
     let Some((_, holds)) = keys.iter().find(|(key, _)| *key == name) else {
         let names: Vec<&str> = keys.iter().map(|(key, _)| *key).collect();
-        let hint = nearest(name, &names).map_or_else(|| SEE.into(), |near| format!("did you mean `{near}`?"));
+        let hint = match (nearest(name, &names), alike(name, &names)) {
+            (Some(near), _) => format!("did you mean `{near}`?"),
+            (None, some) if some.is_empty() => SEE.into(),
+            (None, some) => format!("it has `{}`", some.join("`, `")),
+        };
         return Err((format!("the headline has no `{wanted}`"), hint));
     };
     let of_list = |count: usize| match count {
@@ -105,6 +114,12 @@ fn of_headline(keys: &[(&'static str, Holds)], wanted: &str) -> Result<(), Missi
         (Holds::Words, _) => "numbers alone can be wanted".into(),
     };
     Err((format!("`{wanted}` of the headline is not a number"), advice))
+}
+
+/// Names that have a word among their parts, the first ones.
+fn alike<'a>(word: &str, names: &[&'a str]) -> Vec<&'a str> {
+    let framed = format!("_{word}_");
+    names.iter().filter(|name| format!("_{name}_").contains(&framed)).take(6).copied().collect()
 }
 
 /// What stands behind a key of a headline.

@@ -7,7 +7,7 @@ pub enum RatingError {
     /// A value for which a formula has no meaning.
     #[error("{quantity} is {value}, {clause} wants {allowed}")]
     OutOfRange {
-        /// What it is, with its unit.
+        /// Name of the quantity, with its unit.
         quantity: &'static str,
         /// The value.
         value: f64,

@@ -14,7 +14,7 @@ pub enum ReductionError {
     Sector {
         /// What the mesh says.
         said: String,
-        /// What it advises.
+        /// Advice of the source.
         hint: Option<String>,
     },
     /// The mesh has no such flank.

@@ -153,8 +153,8 @@ impl GearReducer {
         surface
     }
 
-    /// [`GearReducer::surface_stress_modes`] and [`GearReducer::stress_modes`] of the same nodes; of a cyclic gear both
-    /// hold one map to the displacement about them.
+    /// [`GearReducer::surface_stress_modes`] and [`GearReducer::stress_modes`] of the same nodes. For a cyclic gear both
+    /// share the matrix that gives the displacements around these nodes.
     ///
     /// # Errors
     /// As [`GearReducer::stress_modes`].

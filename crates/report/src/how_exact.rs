@@ -15,8 +15,8 @@ pub(crate) fn how_exact(exact: &Accuracy) -> Vec<Part> {
     );
     let bounds = exact.bounds.iter().map(|bound| {
         let asked = match (bound.asked, bound.met) {
-            (Some(asked), Some(true)) => format!("(within {asked:.3}, as asked)"),
-            (Some(asked), _) => format!("({asked:.3} WAS ASKED)"),
+            (Some(_), Some(true)) => format!("(within {}, as asked)", bound.asked_words()),
+            (Some(_), _) => format!("(NOT within {}, as asked)", bound.asked_words()),
             _ => String::new(),
         };
         Line::text(name(bound), bound.words(), asked)

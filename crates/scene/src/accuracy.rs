@@ -48,7 +48,7 @@ impl Tolerance {
         }
         match unit.trim() {
             "%" if value <= 100.0 => Ok(Self::Relative(1e-2 * value)),
-            unit if unit == quantity.unit() => Ok(Self::Absolute(value)),
+            unit if unit.replace(['\u{b5}', '\u{3bc}'], "u") == quantity.unit() => Ok(Self::Absolute(value)),
             _ => Err(wrong()),
         }
     }
@@ -167,6 +167,7 @@ mod tests {
             ("0.3%", Tolerance::Relative(0.003)),
             (" 5e-2 um", Tolerance::Absolute(0.05)),
             ("0.05um", Tolerance::Absolute(0.05)),
+            ("0.05 \u{b5}m", Tolerance::Absolute(0.05)),
         ] {
             assert_eq!(of(words), Ok(tolerance), "{words}");
             assert_eq!(of(&tolerance.words(Quantity::MeanSte)), Ok(tolerance), "{words}: written and read");

@@ -112,7 +112,7 @@ impl<T> Known<T> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Those that the document names and that nobody has written to since.
+    /// Files that the document names, unchanged since it was read.
     fn unchanged(&self) -> Self {
         let all = self.lock();
         let same = all.iter().filter(|(path, own)| own.named && (own.stamp.is_none() || own.stamp == stamp(path)));
@@ -179,7 +179,7 @@ pub(crate) trait Content: Sized {
     /// [`SceneError::DataFile`], [`SceneError::Mesh`].
     fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError>;
 
-    /// That a file cannot be read.
+    /// The error that a file cannot be read.
     fn unread(path: &Path, source: std::io::Error) -> SceneError {
         DataFileError::Read { path: path.to_owned(), source }.into()
     }

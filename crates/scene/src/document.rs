@@ -104,7 +104,7 @@ impl Document {
         Some(Self(Arc::new(Read { file, text, root: Ok(root), origin: *origin, files, places: OnceLock::new() })))
     }
 
-    /// That not both of a plan and an optimisation stand in it.
+    /// Checks that not both of a plan and an optimisation stand in it.
     ///
     /// # Errors
     /// [`SceneError::Conflict`].

@@ -109,12 +109,12 @@ pub enum SceneError {
         /// What is wrong with it.
         what: String,
     },
-    /// What a file, or words beside it, say two times.
-    #[error("{}: {what} twice", file.display())]
-    Twice {
+    /// What a file and the words beside it ask for together, and what cannot be.
+    #[error("{}: {what}", file.display())]
+    Asked {
         /// The file.
         file: PathBuf,
-        /// What is there twice.
+        /// What cannot be.
         what: String,
         /// Hint: the action that cures it.
         advice: String,
@@ -207,7 +207,7 @@ impl SceneError {
         match self {
             Self::Read { .. }
             | Self::AnotherKind { .. }
-            | Self::Twice { .. }
+            | Self::Asked { .. }
             | Self::Missing { .. }
             | Self::Setting { .. }
             | Self::NoKey { .. }
@@ -238,7 +238,7 @@ impl SceneError {
             Self::Setting { label, .. } => Some(label),
             Self::Missing { keys, .. } => keys.first().map(|key| key.trim_matches('`')),
             Self::Geometry { table, .. } => Some(table),
-            Self::Read { .. } | Self::AnotherKind { .. } | Self::Twice { .. } | Self::Syntax { .. } => None,
+            Self::Read { .. } | Self::AnotherKind { .. } | Self::Asked { .. } | Self::Syntax { .. } => None,
             Self::Conflict { .. } | Self::DataFile(_) | Self::RatingTable { .. } | Self::Mesh(_) => None,
         }
     }
@@ -260,7 +260,7 @@ impl SceneError {
             Self::OutOfRange { advice, key, .. } => {
                 Some(advice.clone().unwrap_or_else(|| format!("give `{key}` a value that is allowed")))
             }
-            Self::Twice { advice, .. } => Some(advice.clone()),
+            Self::Asked { advice, .. } => Some(advice.clone()),
             Self::AnotherKind { file, found, .. } => {
                 Some(format!("`ale-gear {} {} --out DIR` takes it", found.command(), file.display()))
             }
@@ -283,7 +283,7 @@ impl SceneError {
 fn example(label: &str) -> &'static str {
     match label.split([' ', '=']).next().unwrap_or_default() {
         "--vary" => {
-            "write `--vary operation.torque_nm=50:200:7`, a list `=50,100`, `~0:40` for values that are drawn, or `=0:40` for a search between bounds"
+            "`ale-gear vary` takes `--vary operation.torque_nm=50:200:7`, a list `=50,100`, or `~0:40` for values that are drawn; `ale-gear optimise` takes bounds, `=0:40`"
         }
         "--design" => "latin-hypercube, sobol and random are known",
         "--samples" => "100 are usual",

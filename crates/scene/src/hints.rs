@@ -5,6 +5,7 @@ use std::{borrow::Cow, ops::Range};
 use crate::{
     Quantity,
     units::{in_another_unit, in_written_unit, own_unit, plain},
+    wrong_line,
 };
 
 /// Hint for a number that is out of its range.
@@ -46,12 +47,16 @@ pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
         }
         e if e.contains("number") => match found.split('"').nth(1).and_then(|written| number_in(key, written)) {
             Some(advice) => advice,
-            None => "write numbers without quotes and without a unit: the unit is in the key".into(),
+            None if found.contains('"') => {
+                "write numbers without quotes and without a unit: the unit is in the key".into()
+            }
+            None if e == "a whole number" => format!("write a whole number alone, as `{key} = 4`"),
+            None => format!("write a number alone, as `{key} = 2.5`"),
         },
         "a text in quotes" => format!("write `{key} = \"...\"`, the text between the quotes"),
         "true or false" => format!("write `{key} = true` or `{key} = false`, without quotes"),
         "a table" => format!("write `[{key}]` on a line of its own, and its keys on the lines below"),
-        "a list" if found.starts_with("a table") && !key.contains('.') => {
+        "a list" if found.starts_with("a table") && !key.split('.').any(|part| part.parse::<u32>().is_ok()) => {
             format!("write `[[{key}]]`, with two brackets: there may be several")
         }
         "a list" if found.starts_with("a table") => {
@@ -106,17 +111,16 @@ fn with_unit(key: &str, (number, unit): (&str, &str)) -> String {
 
 /// What of a line stands behind its `=`, without a comment, and the key before it.
 fn value_of_line<'a>(text: &'a str, at: &Range<usize>) -> Option<(&'a str, &'a str)> {
-    let begin = text.get(..at.start)?.rfind('\n').map_or(0, |i| i + 1);
-    let line = text.get(begin..)?.lines().next()?;
-    let (key, value) = line.split_once('=')?;
+    let (key, value) = wrong_line::line_at(text, at)?.split_once('=')?;
     let value = value.split('#').next()?.trim();
     (!value.starts_with(['"', '\'', '[', '{'])).then_some((key.trim(), value))
 }
 
 /// Hint for text that is no TOML; `None` where nothing better is known than what a TOML file is.
 pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<Cow<'static, str>> {
-    let of_number = value_of_line(text, at).and_then(|(key, value)| number_in(key, value));
-    of_number.map(Cow::Owned).or_else(|| of_toml(text, at, message).map(Cow::Borrowed))
+    let of_line = wrong_line::advice(text, at, message);
+    let of_number = || value_of_line(text, at).and_then(|(key, value)| number_in(key, value));
+    of_line.or_else(of_number).map(Cow::Owned).or_else(|| of_toml(text, at, message).map(Cow::Borrowed))
 }
 
 /// Hint from the syntax alone.
@@ -129,7 +133,6 @@ fn of_toml(text: &str, at: &Range<usize>, message: &str) -> Option<&'static str>
             Some("this is an XML file; `ale-gear init --rexs FILE` makes a gearbox file of a REXS file")
         }
         _ if comma && after_digit => Some("write numbers with a decimal point: `2.5`, not `2,5`"),
-        "duplicate key" => Some("keep one of them; all keys of a table stand under one heading"),
         m if m.contains("invalid fraction") => Some("write a digit behind the decimal point: `2.0`, not `2.`"),
         m if is_nesting(m) => Some("a key of a scene has four parts at most, and a list of lists is the deepest value"),
         m if m.contains("key with no value") => Some("write `key = value`, or `[table]` above keys of a table"),

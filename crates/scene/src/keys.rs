@@ -23,7 +23,16 @@ pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
 
 /// One sentence for someone who wrote `word` where only `here` may stand, in a file of these tables; `neighbour`: the other
 /// kind of machine, whose keys may have been meant.
-pub(super) fn advice((tables, neighbour): (Tables, Option<Neighbour>), word: &str, here: &[&str]) -> String {
+///
+/// A heading (`is_heading`) is rather a table of this place, misspelt, than a key of another one.
+pub(super) fn advice(
+    (tables, neighbour): (Tables, Option<Neighbour>),
+    (word, is_heading): (&str, bool),
+    here: &[&str],
+) -> String {
+    if let Some(key) = nearest(word, here).filter(|_| is_heading) {
+        return format!("did you mean `{key}`?");
+    }
     let of_word = |(_, keys): &(String, Vec<&str>)| keys.contains(&word);
     if let Some((table, _)) = tables().into_iter().skip(1).find(of_word) {
         return format!("`{word}` belongs to [{table}]");

@@ -62,6 +62,7 @@ pub mod study;
 mod table;
 mod tree;
 pub mod units;
+mod wrong_line;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};

@@ -71,7 +71,13 @@ impl Setting {
 
     fn labelled(label: String, key: &str, value: &str) -> Result<Self, SceneError> {
         let Some(path) = path(key) else {
-            return Err(complaint(&label, &format!("unknown key `{key}`")));
+            let quotes = if key.contains([' ', ',']) {
+                "; a name with blanks or commas stands in quotes, as `bearing.\"fast, loose\".position_mm`, or is given by \
+                 its number, as `bearing.1.position_mm`"
+            } else {
+                ""
+            };
+            return Err(complaint(&label, &format!("unknown key `{key}`{quotes}")));
         };
         let read = toml_value(value).and_then(|written| Some((Node::of_value(&written).ok()?, written)));
         match read {

@@ -13,7 +13,6 @@ use super::DocumentKind;
 use super::data_file::DataFiles;
 use super::document::Document;
 use super::document_kind::TASKS;
-use super::hints;
 use super::keys::{self, Neighbour, Tables};
 use super::origin::Origin;
 use super::places::Written;
@@ -21,6 +20,7 @@ use super::setting::Setting;
 use super::spanned::{NAMED, Named, Word};
 use super::tree::Node;
 use super::{Place, error::SceneError};
+use super::{hints, wrong_line};
 
 /// A document with what was set beside it, and what its keys mean.
 pub struct Source<'a> {
@@ -141,8 +141,24 @@ impl Source<'_> {
     }
 
     /// What it calls itself, else the name of the file.
-    pub(crate) fn title(&self, name: &Word) -> String {
-        name.as_ref().map_or_else(|| self.document.stem(), |name| name.get_ref().clone())
+    ///
+    /// # Errors
+    /// As of [`Source::called`].
+    pub(crate) fn title(&self, name: &Word) -> Result<String, SceneError> {
+        Ok(self.called(name)?.unwrap_or_else(|| self.document.stem()))
+    }
+
+    /// A name, where one is written.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`] for one without a letter.
+    pub(crate) fn called(&self, name: &Word) -> Result<Option<String>, SceneError> {
+        let Some(word) = name else { return Ok(None) };
+        if word.get_ref().trim().is_empty() {
+            let advice = "give it a name, or leave the key out where it has a default";
+            return Err(self.conflict(&word.span(), "the name is empty", advice));
+        }
+        Ok(Some(word.get_ref().clone()))
     }
 
     /// Where the scene that is read came from.
@@ -214,7 +230,11 @@ impl Source<'_> {
             let mut words = rest.split('`').skip(1).step_by(2);
             let key = words.next().unwrap_or_default().to_owned();
             let here: Vec<&str> = words.collect();
-            let advice = keys::advice((self.tables, self.neighbour), &key, &here);
+            let is_heading = self.document.text().get(..span.start).is_some_and(|before| {
+                let line = before.rsplit('\n').next().unwrap_or_default();
+                line.trim_start().starts_with('[') && !line.contains('=')
+            });
+            let advice = keys::advice((self.tables, self.neighbour), (&key, is_heading), &here);
             return SceneError::UnknownKey { place, key, advice };
         }
         let typed = message.strip_prefix("invalid type: ").or(message.strip_prefix("invalid value: "));
@@ -238,8 +258,8 @@ impl Source<'_> {
         let mut message = message.lines().next().unwrap_or("not readable").to_owned();
         let text = self.document.text();
         let advice = hints::of_syntax(text, &span, &message);
-        if message == "duplicate key" {
-            message = format!("`{}` is there twice", text.get(span).unwrap_or_default());
+        if let Some(own) = wrong_line::message(text, &span, &message) {
+            message = own;
         }
         if hints::is_nesting(&message) {
             message = "tables, lists or the parts of a key are nested too deep".into();

@@ -48,9 +48,9 @@ impl<T: Clone> Over for Vec<T> {
 /// A document as another one names it.
 #[derive(Debug, Clone)]
 pub(crate) enum Named {
-    /// By its path.
+    /// Named by its path.
     Path(String),
-    /// By its tables, which stand there.
+    /// Given by its tables at this place.
     Here,
 }
 

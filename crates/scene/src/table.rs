@@ -58,7 +58,7 @@ pub(crate) fn write_field<M: SerializeMap>(
 /// A table of the scene file.
 #[derive(Debug)]
 pub(crate) struct Table {
-    /// What it is about.
+    /// Meaning of the table.
     pub about: &'static str,
     /// What may stand in it.
     pub keys: &'static [Key],

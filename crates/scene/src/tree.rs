@@ -121,7 +121,12 @@ impl Node {
             Value::Table(table) => table.get(first)?.node.nobody_called(rest),
             Value::List(list) => match entry_of(list, first) {
                 Some(i) => list[i].nobody_called(rest),
-                None if first.parse::<usize>().is_ok() => None,
+                // The next number begins a new entry.
+                None if first.parse::<usize>().is_ok_and(|i| i <= list.len()) => None,
+                None if first.parse::<usize>().is_ok() => Some(format!(
+                    "there is no entry {first}: entries are numbered from 0, and there are {}",
+                    list.len()
+                )),
                 None => {
                     let names: Vec<String> = list.iter().enumerate().filter_map(|(i, own)| own.named(i)).collect();
                     (!names.is_empty()).then(|| format!("none is called `{first}`; there are {}", names.join(", ")))

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// A number of the scene that is moved by hand.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Slider {
-    /// What it belongs to, in words.
+    /// Part of the pair to which the slider belongs, in words.
     pub group: &'static str,
     /// Key of the scene with dots.
     pub key: String,

@@ -75,7 +75,7 @@ pub enum StudyError {
         index: usize,
     },
     /// Lines closer than the window can tell apart.
-    #[error("lines {spacing} Hz apart cannot be told apart, it takes {least} Hz")]
+    #[error("lines {spacing} Hz apart are not separated: {least} Hz is needed")]
     Unresolved {
         /// Distance of the lines, Hz.
         spacing: f64,

@@ -25,7 +25,7 @@ pub struct AnswerError {
     pub mean_line_length: Option<f64>,
 }
 
-/// What it took: wall times in s.
+/// Cost: wall times in s.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Work {
     /// Everything before the first position: meshes, matrices, factors, condensation.

@@ -18,7 +18,7 @@ use study::Touch;
 
 use super::halves;
 
-/// Bytes before the payload of a record, as `docs/cache.md` has them: length and checksum stand last.
+/// Bytes before the payload of a record, as `crates/reduction/src/record/format.md` has them: length and checksum stand last.
 const HEADER: usize = 92;
 
 /// The payload of a record. Length and checksum are made to fit, else nothing would ever come past them; what bears

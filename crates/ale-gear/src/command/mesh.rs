@@ -1,7 +1,10 @@
 //! `ale-gear mesh`: look at, check or make meshes.
 
 use mesh::MshFormat;
-use std::path::{Path, PathBuf};
+use std::{
+    ops::RangeInclusive,
+    path::{Path, PathBuf},
+};
 
 use clap::{Subcommand, ValueEnum};
 use mesh::{GroupNames, Mesh, MeshInfo, MeshReport, Severity};
@@ -65,6 +68,9 @@ pub(super) enum MeshCommand {
     },
 }
 
+/// Numbers of teeth that a gear may have, as in a scene.
+const TEETH: RangeInclusive<u32> = 5..=2000;
+
 /// A gear of the pair.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum WhichGear {
@@ -110,15 +116,19 @@ fn check_as(file: &Path, scene: &Path, which: WhichGear, json: bool) -> Result<S
 }
 
 fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Result<String, CommandError> {
+    if let Some(wrong) = teeth.filter(|z| !TEETH.contains(z)) {
+        let message = format_args!("`--teeth` is {wrong}, allowed is {} .. {}", TEETH.start(), TEETH.end());
+        return Err(CommandError::input(message, Some("give the number of teeth of the whole gear".into())));
+    }
     let mesh = read(file)?;
     let report = MeshReport::of_gear(&mesh, names, teeth);
-    // Flanks of neighbours tell how many teeth there are.
+    // Neighbouring teeth tell how many there are.
     if let (Some(said), Some(found)) = (teeth, MeshInfo::with_names(&mesh, names).gear.teeth)
         && said != found
     {
         return Err(CommandError::input(
             format_args!(
-                "{}: {said} teeth are asked for, and its flanks lie as those of {found} teeth do",
+                "{}: {said} teeth are asked for, and its teeth lie as those of a gear of {found} do",
                 file.display()
             ),
             Some(format!("is the number right, `--teeth {found}`; or is it the mesh of another gear?")),
@@ -143,6 +153,10 @@ fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Res
 fn generate(scene: &Path, which: WhichGear, output: &Path, format: &str, ascii: bool) -> Result<String, CommandError> {
     let format = msh_format(format, ascii)?;
     Target::Mesh.check("--output", output)?;
+    if output.extension().is_none_or(|end| end != "msh") {
+        let message = format_args!("`--output` is {}, allowed is a name that ends in `.msh`", output.display());
+        return Err(CommandError::input(message, Some("Gmsh converts it into other formats".into())));
+    }
     let scene = Scene::read(scene)?;
     let pair = scene.gear_pair()?;
     let mesh = match which {

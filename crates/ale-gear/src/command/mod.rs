@@ -20,21 +20,17 @@ mod run;
 mod serve;
 mod target;
 mod vary;
+mod wrong_words;
 
 use std::{
-    ffi::OsString,
     io::Write,
     path::{Path, PathBuf},
 };
 
-use clap::{
-    ArgAction, Args, Parser, Subcommand,
-    error::{ContextKind, ContextValue},
-};
+use clap::{ArgAction, Args, Parser, Subcommand};
 
 use crate::{
     error::CommandError,
-    printed,
     scene::{Document, DocumentKind},
     stop::on_stop,
     talk::{Verbosity, colours_on_stderr, read_progress_after, say, set_verbosity},
@@ -153,17 +149,9 @@ impl Cli {
     /// The command line of this process; a wrong one, and `--help`, end the process here.
     pub fn of_process() -> Self {
         Self::try_parse().unwrap_or_else(|error| {
-            if let Some(said) = of_an_old_word(&error, std::env::args_os()) {
+            if let Some(said) = wrong_words::complaint(&error, &std::env::args_os().collect::<Vec<_>>()) {
                 let _ = std::io::stderr().lock().write_all(said.text(colours_on_stderr()).as_bytes());
                 std::process::exit(said.status.into());
-            }
-            let error = with_a_way_out(error);
-            let said = error.render().to_string();
-            let shown = printed::message(&said);
-            if error.use_stderr() && shown != said {
-                // Words of the command line are quoted as they are; without them the usual way has colours.
-                let _ = std::io::stderr().lock().write_all(shown.as_bytes());
-                std::process::exit(error.exit_code());
             }
             error.exit()
         })
@@ -217,45 +205,6 @@ impl Cli {
         };
         text.map(Answer::from)
     }
-}
-
-/// Subcommands that are gone, and what does their work now; `{}` stands for the file.
-const OLD_WORDS: [(&str, &str); 12] = [
-    ("gearbox", "`ale-gear run {} --out DIR` takes it"),
-    ("study", "`ale-gear run {} --out DIR` takes it"),
-    ("sweep", "`ale-gear vary {} --out DIR --vary 'KEY=FROM:TO:COUNT' --start carry` takes it"),
-    ("curve", "`ale-gear vary {} --out DIR --vary 'KEY=FROM:TO' --start branch` takes it"),
-    (
-        "case",
-        "`ale-gear vary {} --cases FROM..TO --out PART` takes it; of one case `ale-gear run {} --case N --out DIR`",
-    ),
-    ("reduce", "`ale-gear mesh reduce {}` takes it"),
-    ("schema", "`ale-gear print schema` takes it"),
-    ("completions", "`ale-gear print completions SHELL` takes it"),
-    ("man", "`ale-gear print man` takes it"),
-    ("licences", "`ale-gear print licences` takes it"),
-    ("licenses", "`ale-gear print licences` takes it"),
-    ("optimize", "`ale-gear optimise {} --out DIR` takes it"),
-];
-
-/// What is said of a subcommand that is gone; `None` of any other mistake. `typed`: the whole command line.
-fn of_an_old_word(error: &clap::Error, mut typed: impl Iterator<Item = OsString>) -> Option<CommandError> {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
-    let (_, now) = OLD_WORDS.iter().find(|(old, _)| old == word)?;
-    let file = typed.find_map(|word| word.into_string().ok().filter(|word| word.ends_with(".toml")));
-    let hint = now.replace("{}", file.as_deref().unwrap_or("FILE.toml"));
-    Some(CommandError::input(format_args!("the subcommand `{word}` is gone"), Some(hint)))
-}
-
-/// Who gives a scene where a subcommand is wanted is told which one takes it.
-fn with_a_way_out(mut error: clap::Error) -> clap::Error {
-    let word = match error.get(ContextKind::InvalidSubcommand) {
-        Some(ContextValue::String(word)) if word.ends_with(".toml") => word.clone(),
-        _ => return error,
-    };
-    let tip = format!("to run it: ale-gear run {word} --out DIR");
-    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
-    error
 }
 
 /// Threads a core from which on a user hears of it.

@@ -208,6 +208,42 @@ fn wrong_words_are_told_with_a_way_out() {
     assert_eq!(scratch.names(), ["a.msh", "a.toml", "f"]);
 }
 
+/// A command line that cannot be read is told as everything else is: one line and a hint.
+#[test]
+fn a_command_line_that_cannot_be_read_is_one_line_and_a_hint() {
+    let lists = |command: &str| format!("`ale-gear {command} --help` lists its options");
+    for (words, message, hint) in [
+        (&["run", "a.toml"][..], "missing on the command line: --out <DIR>", lists("run")),
+        (&["run", "--oot", "x"], "unknown option `--oot`", "is `--out` meant?".into()),
+        (&["run", "--bogus"], "unknown option `--bogus`", lists("run")),
+        (&["run", "a.toml", "b.toml", "--out", "x"], "`b.toml` is one argument too many", lists("run")),
+        (
+            &["run", "a.toml", "--out", "x", "--out", "y"],
+            "`--out <DIR>` is given twice",
+            "leave one of them out".into(),
+        ),
+        (
+            &["mesh", "check", "--teeth", "0/24", "a"],
+            "`--teeth <Z>` is `0/24`, allowed is a whole number",
+            lists("mesh check"),
+        ),
+        (&["mesh", "check", "--teeth", "0", "a"], "`--teeth` is 0, allowed is 5 .. 2000", "whole gear".into()),
+        (&["init", "--teeth"], "`--teeth <Z1,Z2>` has no value", lists("init")),
+        (&["mesh", "generate", "a", "--gear", "sun"], "`--gear <GEAR>` is `sun`", "known here: pinion, wheel".into()),
+        (&["mesh", "chek"], "unknown subcommand `chek`", "is `check` meant?".into()),
+        (&["mesh", "foo"], "unknown subcommand `foo`", "`ale-gear mesh --help` lists its subcommands".into()),
+        (&["run", "a.toml", "-out", "o"], "`o` is one argument too many", "is `--out` meant, with two dashes?".into()),
+        (&["vary", "a.toml", "--samples", "-5"], "`-5` is not allowed here", "takes no negative number".into()),
+        (&["a.toml"], "a subcommand is missing before `a.toml`", "to run it: `ale-gear run a.toml --out DIR`".into()),
+    ] {
+        let run = Scratch::new().command(words);
+        let lines: Vec<&str> = run.stderr.lines().collect();
+        assert_eq!((run.code, lines.len(), run.stdout.as_str()), (Some(2), 2, ""), "{words:?}: {}", run.stderr);
+        assert_eq!(lines[0], format!("ale-gear: {message}"), "{words:?}");
+        assert!(lines[1].starts_with("hint: ") && lines[1].contains(&hint), "{words:?}: {}", lines[1]);
+    }
+}
+
 /// A pair on the built-in mesher, model and mesh left to the program.
 const PLAIN_SCENE: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 31\n[pair]\nnormal_module_mm = 3.0\n\
      face_width_mm = 15.0\n[operation]\ntorque_nm = 200.0\n";

@@ -350,13 +350,13 @@ fn keys_of_micro_geometry_are_checked_one_with_the_other() {
     says(
         "[pinion.modification]\nlead_crowning_um = 2000\n",
         18,
-        "`lead_crowning_um` is 2000, allowed is -1000 .. 1000\nhint: `lead_crowning_um` means: lead crowning C_beta, um at both ends of the face",
+        "`lead_crowning_um` is 2000, allowed is -1000 .. 1000\nhint: `lead_crowning_um` means: lead crowning C_beta, µm at both ends of the face",
     );
     says(
         "[pair.misalignment]\ninclination_um = 500\n",
         18,
         "`inclination_um` is 500, allowed is -200 .. 200\n\
-         hint: `inclination_um` means: f_Sigma_delta: deviation of the wheel's axis in the plane of axes, um over the face width",
+         hint: `inclination_um` means: f_Sigma_delta: deviation of the wheel's axis in the plane of axes, µm over the face width",
     );
     for table in ["[pair.misalignment]\ninclination_um = 5\n", "[wheel.modification]\nlead_slope_um = 3\n"] {
         let key = if table.contains("pair") { "misalignment" } else { "modification" };
@@ -436,7 +436,7 @@ fn words_of_the_command_are_checked_too() {
         (
             scratch.ale_gear(["run", "a.toml", "--out", "o", "--torque-nm", "-5"]),
             "ale-gear: --torque-nm: `torque_nm` is -5, allowed is 0 .. 1000000000\n\
-             hint: `torque_nm` means: torque on the driven gear, N m, against its motion; `driver` and `rotation` say which flanks it presses\n",
+             hint: `torque_nm` means: torque on the driven gear, N·m, against its motion; `driver` and `rotation` say which flanks it presses\n",
         ),
         (
             scratch.ale_gear(["run", "a.toml", "--out", "a.toml"]),
@@ -479,6 +479,36 @@ fn no_damage_to_a_scene_makes_the_reader_panic() {
     }
 }
 
+/// Lines that are no TOML are told by what stands there, and the hint writes the line.
+#[test]
+fn lines_that_are_no_toml_are_written_right() {
+    let teeth = |line: &str| with("teeth = 30", line);
+    for (scene, said, hint) in [
+        (teeth("teeth ="), "`teeth` has no value", "write a value after `=`"),
+        (teeth("teeth : 30"), "`:` stands where `=` is wanted", "write `teeth = 30`"),
+        (teeth("teeth = 30\""), "`teeth` has a quote at its end alone", "write `teeth = 30`, without a quote"),
+        (
+            teeth("name = a b\""),
+            "`name` has a quote at its end alone",
+            "write `name = \"a b\"`, with a quote on either side",
+        ),
+        (teeth("teeth = 30\n  0.1, 0.2,\n]"), "values without a key", "a list stands in brackets behind its key"),
+        (teeth("teeth = 30\nteeth = 30"), "`teeth` is there twice", "keep one of them"),
+        (
+            teeth("teeth = true"),
+            "`teeth` must be a whole number, found boolean true",
+            "write a whole number alone, as `teeth = 4`",
+        ),
+        (with("[pair]", "[pairs]"), "unknown key `pairs`", "did you mean `pair`?"),
+        ("[[pinion]]\nteeth = 3\n[pinion]\n".to_owned(), "`[pinion]` stands beside `[[pinion]]`", "write `[[pinion]]`"),
+    ] {
+        let run = Scratch::new().file("a.toml", &scene).ale_gear(["run", "a.toml", "--out", "o"]);
+        let first = run.stderr.lines().next().unwrap_or_default();
+        assert!(run.code == Some(2) && first.ends_with(said), "{scene}\nis answered by {}", run.stderr);
+        assert!(run.stderr.contains(&format!("\nhint: {hint}")), "{scene}\nis answered by {}", run.stderr);
+    }
+}
+
 /// Habits from other programs and other countries are answered with what is written here instead.
 #[test]
 fn habits_from_elsewhere_are_put_right() {
@@ -495,7 +525,7 @@ fn habits_from_elsewhere_are_put_right() {
     hint(&with("teeth = 30", "teeth = \"30\""), "write numbers without quotes");
     hint(
         &with("torque_nm = 150.0", "torque_nm = -150.0"),
-        "`torque_nm` means: torque on the driven gear, N m, against its motion; `driver` and `rotation`",
+        "`torque_nm` means: torque on the driven gear, N·m, against its motion; `driver` and `rotation`",
     );
     let run = Scratch::new().file("a.toml", ISO_SCENE).ale_gear(["a.toml"]);
     assert!(run.stderr.contains("ale-gear run a.toml --out DIR"), "{}", run.stderr);

@@ -33,19 +33,19 @@ fn refused(scene: &str, text: &str, [wrong, right]: [&str; 2]) {
 fn loads_in_another_unit_are_refused_with_the_unit_that_was_meant() {
     refused(
         &with("torque_nm = 80.0", "torque_nm = 80000.0"),
-        "ale-gear: a.toml:10: 80000 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.168 times their \
-         modulus (ISO 6336-1 and Hertz)\nhint: 80000 N mm are 80 N m: write `torque_nm = 80`\n",
+        "ale-gear: a.toml:10: 80000 N·m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.168 times their \
+         modulus (ISO 6336-1 and Hertz)\nhint: 80000 N·mm are 80 N·m: write `torque_nm = 80`\n",
         ["torque_nm = 80000.0", "torque_nm = 80"],
     );
     refused(
         &with("[analysis]", "[material]\nyoung_mpa = 206.0\n[analysis]"),
-        "ale-gear: a.toml:12: 80 N m would bend the teeth by 5.12 mm, 2.05 modules, and press them with 0.168 times their \
+        "ale-gear: a.toml:12: 80 N·m would bend the teeth by 5.12 mm, 2.05 modules, and press them with 0.168 times their \
          modulus (ISO 6336-1 and Hertz)\nhint: 206 GPa are 206000 MPa: write `young_mpa = 206000`\n",
         ["young_mpa = 206.0", "young_mpa = 206000"],
     );
     refused(
         &with("face_width_mm = 18.0", "face_width_mm = 0.018"),
-        "ale-gear: a.toml:8: 80 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.191 times their modulus \
+        "ale-gear: a.toml:8: 80 N·m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.191 times their modulus \
          (ISO 6336-1 and Hertz)\nhint: 0.018 m are 18 mm: write `face_width_mm = 18`\n",
         ["face_width_mm = 0.018", "face_width_mm = 18"],
     );
@@ -59,8 +59,8 @@ fn a_relief_of_a_millimetre_is_refused() {
     let (run, names) = run(&scene);
     assert_eq!(
         run.complaint(),
-        "ale-gear: a.toml:4: 1000 um off both flanks of the pinion leave nothing of its tips\n\
-         hint: amounts are in um; some 50 um are usual at this module\n"
+        "ale-gear: a.toml:4: 1000 µm off both flanks of the pinion leave nothing of its tips\n\
+         hint: amounts are in µm; some 50 µm are usual at this module\n"
     );
     assert_eq!((run.code, names.len()), (Some(2), 1));
 }
@@ -102,7 +102,7 @@ fn a_value_out_of_range_is_told_in_the_unit_of_the_key() {
     says(
         &with("[wheel]", "thickness_allowance_mm = 50.0\n[wheel]"),
         "thickness_allowance_mm = 50.0",
-        "50 um are 0.05 mm: write `thickness_allowance_mm = 0.05`",
+        "50 µm are 0.05 mm: write `thickness_allowance_mm = 0.05`",
     );
 }
 

@@ -108,7 +108,7 @@ fn what_is_not_taken_is_listed_once() {
     let run = scratch.command(&["init", "t.toml", "--rexs", "f.rexs"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     for said in
-        ["torque_nm = 150", "speed_rpm = 1000", "`rotational_speed` (1400 1 / min)", "`torque_around_u_axis` (4.7 N m)"]
+        ["torque_nm = 150", "speed_rpm = 1000", "`rotational_speed` (1400 1 / min)", "`torque_around_u_axis` (4.7 N·m)"]
     {
         assert_eq!(run.stderr.matches(said).count(), 1, "{said}: {}", run.stderr);
     }

@@ -85,7 +85,7 @@ fn impossible_bearings_are_told() {
         (
             &[("radial_clearance_um = 8.0", "radial_clearance_um = 5000.0")],
             2,
-            "bearing fast, fixed: a radial clearance of 5000 um",
+            "bearing fast, fixed: a radial clearance of 5000 µm",
         ),
         (&[("elements = 9", "elements = 40")], 2, "bearing fast, fixed: 40 rolling elements of 7.938 mm do not fit"),
         (

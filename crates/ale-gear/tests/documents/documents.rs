@@ -10,8 +10,8 @@ use crate::util::repository;
 fn pages() -> Vec<Page> {
     let top = repository();
     let mut pages = Page::all_in(&top, false);
-    for folder in ["docs", "meshes", "benches"] {
-        pages.extend(Page::all_in(&top.join(folder), true));
+    for (folder, below) in [("docs", true), ("meshes", true), ("benches", true), ("fuzz", false), ("mutants", false)] {
+        pages.extend(Page::all_in(&top.join(folder), below));
     }
     pages
 }
@@ -143,4 +143,40 @@ fn theory_and_docstrings_number_equations_alike() {
     }
     let silent: Vec<&String> = numbered.difference(&all_cited).collect();
     assert!(silent.is_empty(), "no docstring cites the equations {silent:?} of the theory");
+}
+
+/// Pages that the program writes as a whole.
+const WRITTEN: [&str; 2] = ["docs/remarks.md", "docs/which_model.md"];
+
+/// Words of README and book at most, without the lists that tests write.
+const MOST_WORDS: usize = 45_000;
+
+/// A reader has five minutes: what is written by hand stays short.
+#[test]
+fn documents_by_hand_stay_short() {
+    let top = repository();
+    let is_counted = |page: &Page| {
+        let name = page.path.strip_prefix(&top).unwrap();
+        (name == Path::new("README.md") || name.starts_with("docs"))
+            && !WRITTEN.iter().any(|own| name == Path::new(own))
+    };
+    let words = |page: &Page| {
+        let text = std::fs::read_to_string(&page.path).unwrap();
+        let mut own = String::new();
+        let mut is_list = false;
+        for line in text.lines() {
+            // A list of the program begins with a comment that no tutorial has, and ends with `<!-- end -->`.
+            let begins = line.starts_with("<!-- ") && line.ends_with("-->");
+            let of_tutorial = ["run", "file", "prints", "value"].iter().any(|w| line.starts_with(&format!("<!-- {w}")));
+            match (begins, line == "<!-- end -->") {
+                (_, true) => is_list = false,
+                (true, _) if !of_tutorial => is_list = true,
+                _ if !is_list => own += &format!("{line}\n"),
+                _ => {}
+            }
+        }
+        own.split_whitespace().filter(|word| word.chars().any(|c| c.is_ascii_alphanumeric())).count()
+    };
+    let all: usize = pages().iter().filter(|page| is_counted(page)).map(words).sum();
+    assert!(all <= MOST_WORDS, "{all} words by hand; {MOST_WORDS} at most: say it shorter, or once");
 }

@@ -106,8 +106,10 @@ fn wrong_words_are_refused() {
         assert!(run.stderr.contains(wanted), "`{wanted}` is not in {}", run.stderr);
         assert!(!scratch.path().join("o").exists());
     };
-    refused(&["a.toml", "--vary", "operation.torque_nm=1:2"], "name torques in `torques_nm`");
-    refused(&["a.toml", "--vary", "pair.face_width_mm=10:20"], "micro-geometry and misalignment may change");
+    refused(&["a.toml", "--vary", "operation.torque_nm=1:2"], "hint: list the torques that count");
+    refused(&["a.toml", "--vary", "pair.face_width_mm=10:20"], "hint: add a goal of the headline");
+    let listed = "hint: list its values: `ale-gear vary a.toml --out DIR --vary pinion.teeth=A,B,C`";
+    refused(&["a.toml", "--vary", "pinion.teeth=20:30", "--goal", "peak_to_peak_ste_um"], listed);
     refused(&["a.toml", "--vary", "pinion.modification.bias_um=2:1"], "second bound is not above");
     refused(&["a.toml", "--vary", "pinion.modification.bias_um"], "it has neither `=`");
     refused(&["a.toml", "--torques", "0"], "is not a torque above 0");

@@ -196,7 +196,7 @@ fn words_of_a_plan_are_checked_first() {
     let keys = |keys: &str| whole("a.toml", keys, mean, "");
     for (text, said) in [
         (whole("a.toml", torque, mean, "").replace("scene = \"a.toml\"\n", ""), "a plan without `scene`"),
-        (keys(""), "a plan that varies nothing"),
+        (keys(""), "nothing is varied"),
         (whole("a.toml", torque, "", ""), "a plan that asks for nothing"),
         (whole("b.toml", torque, mean, ""), "b.toml cannot be read"),
         (whole("a.toml", torque, mean, "sampels = 3\n"), "did you mean `samples`"),
@@ -447,7 +447,7 @@ fn a_harris_map_is_one_command() {
     assert_eq!((of("4").len(), of("4")[0].0, of("8")[13].0), (14, 15.0, 210.0));
     assert!(flattest("4") < flattest("8"), "{:?} {:?}", of("4"), of("8"));
     let page = scratch.read("o/report.html");
-    assert!(page.contains("tip_relief_um 4") && page.contains("tip_relief_um 8"), "a curve for each relief");
+    assert!(page.contains("tip relief [µm] 4") && page.contains("tip relief [µm] 8"), "a curve for each relief");
     assert!(page.contains("\"mark\":{\"at\":[") && page.contains("least: "), "a map with its optimum");
     assert!(
         page.contains("--harris --vary &#x27;") && page.contains("analysis.positions_per_cycle=6"),

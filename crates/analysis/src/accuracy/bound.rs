@@ -150,20 +150,33 @@ impl Bound {
 
     /// Bound beside what is asked, in words.
     pub fn shortfall(&self) -> String {
-        let asked = self.asked.unwrap_or(f64::NAN);
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        format!("{} is known to {:.2e}{unit}, {asked:.2e} is asked", self.name(), self.largest())
+        format!("{} is known to {}, {} is asked", self.name(), self.of_unit(self.largest()), self.asked_words())
     }
 
-    /// Value and bounds in words: `9.37 um +0.04 -0.01`.
+    /// What is asked, in words: three digits and the unit.
+    pub fn asked_words(&self) -> String {
+        self.of_unit(self.asked.unwrap_or(f64::NAN))
+    }
+
+    /// Three significant digits of an amount, with the unit of the number.
+    fn of_unit(&self, amount: f64) -> String {
+        format!("{} {}", answer::digits(amount), self.unit).trim_end().to_owned()
+    }
+
+    /// Value and bounds in words: `9.37 +0.04 -0.01 um`.
     pub fn words(&self) -> String {
         let Self { value, above, below, unit, .. } = self;
-        // Two digits of the larger side say enough.
-        let places = (1.0 - self.largest().log10().floor()).clamp(0.0, 9.0) as usize;
-        let words = if above == below {
-            format!("{value:.places$} +-{above:.places$} {unit}")
-        } else {
-            format!("{value:.places$} +{above:.places$} -{below:.places$} {unit}")
+        // Two digits of the larger side say enough, and so do six of the value.
+        let places = |digits: f64, of: f64| digits - 1.0 - of.log10().floor();
+        let most = if *value == 0.0 { 9.0 } else { places(6.0, value.abs()).clamp(0.0, 9.0) };
+        let wanted = places(2.0, self.largest());
+        let places = wanted.clamp(0.0, most) as usize;
+        // Where the digits of the value do not reach down to the bound, the bound has its own.
+        let side = |x: &f64| if wanted > most { format!("{x:.1e}") } else { format!("{x:.places$}") };
+        let [up, down] = [side(above), side(below)];
+        let words = match up == down {
+            true => format!("{value:.places$} +-{up} {unit}"),
+            false => format!("{value:.places$} +{up} -{down} {unit}"),
         };
         words.trim_end().to_owned()
     }
@@ -186,6 +199,15 @@ mod tests {
         let b = Bound::new(Quantity::MeanSte, 9.37, terms(0.015));
         assert!((b.value + b.above - 9.41).abs() < 1e-12 && (b.value - b.below - 9.36).abs() < 1e-12, "{b:?}");
         assert_eq!(b.words(), "9.370 +0.040 -0.010 um");
+        // Digits of the number end where its bound begins, and are six at the most; of what is asked there are three.
+        let of = |value, amount| {
+            Bound::new(Quantity::MaxPairForce, value, vec![Term { cause: Cause::Mesh, known: 0.0, amount }])
+        };
+        assert_eq!(of(2485.0123, 17.77).words(), "2485 +-18 N");
+        assert_eq!(of(2485.0123, 1.7e-12).words(), "2485.01 +-1.7e-12 N");
+        assert_eq!(of(2485.0123, 0.0).words(), "2485.01 +-0.0e0 N");
+        let asked = |share| of(2485.0123, 17.77).against(Some(Tolerance::Relative(share))).asked_words();
+        assert_eq!([asked(1.0 / 3.0), asked(1e-6), asked(1e-12)], ["828 N", "0.00249 N", "2.49e-9 N"]);
         // A value that lies outside of the band is within its bounds all the same.
         let far = Bound::new(Quantity::MeanSte, 9.0, terms(0.385));
         assert!(far.below == 0.0 && (far.above - 0.41).abs() < 1e-12, "{far:?}");

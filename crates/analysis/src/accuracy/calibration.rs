@@ -110,7 +110,7 @@ pub struct Calibration {
     pub made_of: BTreeMap<u64, Vec<u64>>,
     /// Share of them that lies within its bounds.
     pub coverage: f64,
-    /// By quantity.
+    /// Laws by quantity.
     pub quantities: Vec<QuantityLaws>,
 }
 

@@ -47,7 +47,10 @@ impl Accuracy {
     /// # Errors
     /// [`Refusal`] of numbers that are less exact than asked.
     pub(crate) fn verdict(&self) -> Result<(), Refusal> {
-        let missed: Vec<String> = self.missed().map(|b| format!("{} is {}", b.name(), b.words())).collect();
+        let missed: Vec<String> = self
+            .missed()
+            .map(|b| format!("{} is {}, within {} is asked", b.name(), b.words(), b.asked_words()))
+            .collect();
         if missed.is_empty() {
             return Ok(());
         }

@@ -17,7 +17,7 @@ impl BoundsOfResults {
         Self { kept: GearMemo::new(&NoCache), companions: Companions::default() }
     }
 
-    /// Those of a scene as it was solved, whatever accuracy it asks for.
+    /// Bounds of a scene as it was solved, for any request of accuracy.
     ///
     /// # Errors
     /// [`AnalysisError`] where what it is held against cannot be solved.

@@ -64,7 +64,7 @@ impl Sample {
         self.deflection
     }
 
-    /// Sample of every `stride`-th position of a history of the scene's cycles; the stride divides the positions of a
+    /// Value of the quantity from every `stride`-th position of a history. The stride divides the number of positions of a
     /// cycle.
     ///
     /// # Errors

@@ -21,7 +21,7 @@ const MORE_IN_FILLET: u32 = 1;
 const MORE_IN_RIM: u32 = 2;
 
 impl Rung {
-    /// Those of the ladder, coarse to fine.
+    /// Rungs of the ladder, coarse to fine.
     pub const ALL: [Self; 7] = [
         Self::along_profile(2),
         Self::along_profile(3),

@@ -29,7 +29,7 @@ impl Seen {
 pub struct WholeForce(f64);
 
 impl WholeForce {
-    /// That of a scene and its pair.
+    /// The whole force of a scene and its pair.
     pub fn of(scene: &Scene, pair: &GearPair) -> Self {
         let loaded = LoadedPair::of(scene, pair);
         Self(loaded.torque / (loaded.driven_base_radius() * pair.base_helix_angle().cos()))

@@ -24,11 +24,11 @@ pub const REDUCED: &str = "reduced";
 pub struct MotionRow {
     /// Name of the way.
     pub way: &'static str,
-    /// What it gave, or why nothing.
+    /// Result, or the reason why there is none.
     pub outcome: Result<MotionPoint, String>,
 }
 
-/// What it gave and took.
+/// Result and cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionPoint {
     /// Rigid coordinates that are integrated.

@@ -125,7 +125,7 @@ fn iso(scene: &mut Scene) {
     scene.analysis.reduction = None;
 }
 
-/// By cyclic sectors, unless the mesh is none of a cyclic gear.
+/// Reduces by cyclic sectors, if the mesh is that of a cyclic gear.
 fn reduced(scene: &mut Scene) {
     scene.analysis.model = Model::Reduced;
     scene.modes = None;

@@ -96,7 +96,7 @@ pub struct ResonancePoint {
     pub model: &'static str,
     /// Steps of a mesh cycle; shorter where the scene's `steps_per_resonance`, in proportion, asks for it.
     pub steps: u32,
-    /// What it gave, or why nothing.
+    /// Result, or the reason why there is none.
     pub outcome: Result<ResonanceCurve, String>,
 }
 
@@ -105,7 +105,7 @@ pub struct ResonancePoint {
 pub struct ResonancePrecision {
     /// Model by model, long steps first.
     pub points: Vec<ResonancePoint>,
-    /// What they are compared with: normal modes, shorter steps.
+    /// Reference: normal modes and shorter steps.
     pub reference: ResonanceCurve,
     /// Steps of a mesh cycle of the reference.
     pub reference_steps: u32,
@@ -113,8 +113,8 @@ pub struct ResonancePrecision {
     pub sweep: SweepScene,
 }
 
-/// Runs every model over the speeds of a scene's `[motion.sweep]`, with steps half, once and twice as many as the
-/// scene's; `quick`: as many only.
+/// Runs every model over the speeds of a scene's `[motion.sweep]`, with half, once and twice the scene's
+/// number of steps. With `quick` it uses the scene's number only.
 ///
 /// The driver turns at a constant speed, axes are held or as stiff as makes no difference. A model that fails is a point
 /// that says why.

@@ -68,7 +68,7 @@ pub struct BearingLife {
     pub hours: f64,
     /// Whether oil and dirt are to count.
     pub asks_modified: bool,
-    /// What they make of it, where ISO 281 covers them.
+    /// Modification of the life (a_ISO), if ISO 281 covers the bearing.
     pub modification: Option<LifeModification>,
 }
 

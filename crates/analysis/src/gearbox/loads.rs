@@ -64,7 +64,7 @@ impl Loaded<'_> {
         in_another_unit("torque_nm", largest, |x| x > 0.0)
     }
 
-    /// That the axial forces of the gears, and those of bearings that stand at an angle to their radial load, meet a bearing,
+    /// Checks that the axial forces of the gears, and those of bearings that stand at an angle to their radial load, meet a bearing,
     /// shaft by shaft.
     ///
     /// ```text

@@ -100,7 +100,7 @@ pub(super) struct ReducedMesh {
 }
 
 impl ReducedMesh {
-    /// `wheel_turn`: how far the wheel stands off where the flanks touch, rad.
+    /// `wheel_turn`: angle between the wheel and the position in which the flanks touch, rad.
     pub fn new(
         scene: Scene,
         (mesh, wheel_turn): (&GearMesh, f64),

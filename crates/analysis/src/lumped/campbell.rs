@@ -33,7 +33,7 @@ pub struct LumpedCampbell {
     pub names: Vec<String>,
     /// Undamped natural frequencies at rest, Hz, the free turn among them.
     pub at_rest_hz: Vec<f64>,
-    /// Those of the shafts in Timoshenko beams, Hz.
+    /// Frequencies of the shafts as Timoshenko beams, Hz.
     pub continuum_hz: Option<Vec<f64>>,
 }
 

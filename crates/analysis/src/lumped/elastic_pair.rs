@@ -55,7 +55,7 @@ impl ElasticPair {
     /// Reduces the gears and, for the model "mapped", maps their contact.
     ///
     /// # Errors
-    /// Those of the reduced gears, and of the map.
+    /// Errors of the reduced gears and of the map.
     pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
         let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;

@@ -82,7 +82,7 @@ impl<'a> ExcitationSource<'a> {
     /// The gears of a scene, reduced, with a map of their contact where the model takes one.
     ///
     /// # Errors
-    /// Those of the reduced gears and of the map.
+    /// Errors of the reduced gears and of the map.
     pub fn elastic_pair(&mut self, scene: &Scene) -> Result<Arc<ElasticPair>, AnalysisError> {
         let same = without_speed(scene);
         if let Some((_, gears)) = self.last_pair.as_ref().filter(|(known, _)| *known == same) {

@@ -57,7 +57,7 @@ impl LumpedInputs {
     /// Inputs of a scene with a model of few coordinates.
     ///
     /// # Errors
-    /// Those of a pair that is none, and of the reduced model where it feeds the mesh.
+    /// Errors of the geometry of the pair, and of the reduced model if it feeds the mesh.
     pub fn gather(scene: &Scene, source: &mut ExcitationSource<'_>) -> Result<Self, AnalysisError> {
         let pair = scene.gear_pair()?;
         if let Some(own) = &scene.shaft18 {

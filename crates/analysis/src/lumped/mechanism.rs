@@ -134,7 +134,7 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = GearboxError> + Send {
         true
     }
 
-    /// What it is beside coordinates and velocities.
+    /// What the law remembers beside coordinates and velocities.
     fn memory(&self) -> LumpedMemory {
         LumpedMemory::Formulas
     }

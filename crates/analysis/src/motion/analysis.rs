@@ -80,7 +80,7 @@ pub struct MotionResult {
     pub ramp: Option<RampResult>,
     /// What the driving flanks were pressed by.
     pub patterns: [GearPattern; 2],
-    /// What it was made of, with its certificate.
+    /// Facts about the model, with its certificate.
     pub facts: RunInfo,
     /// What a user should hear.
     pub remarks: Vec<Remark>,

@@ -20,7 +20,7 @@ pub struct LoadEstimate {
     pub deflection_mm: f64,
     /// Largest nominal Hertz pressure, MPa.
     pub pressure_mpa: f64,
-    /// That pressure over the effective modulus E* of both materials; half the width of a Hertz band over the radius of
+    /// The largest pressure over the effective modulus E* of both materials; half the width of a Hertz band over the radius of
     /// the flanks is twice this.
     pub pressure_over_modulus: f64,
 }

@@ -23,7 +23,7 @@ const USUAL: [f64; 2] = [0.1, 0.05];
 pub struct Beyond {
     /// Keys that may be wrong, the likeliest first.
     pub keys: Vec<String>,
-    /// What it would mean.
+    /// Consequence of the value.
     pub said: String,
     /// What to write.
     pub hint: String,

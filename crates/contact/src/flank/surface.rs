@@ -7,8 +7,8 @@ use crate::Vec3;
 pub struct Foot {
     /// Surface coordinates of the foot.
     pub at: [f64; 2],
-    /// Signed distance of the point, mm; positive outside the material. Of a surface with [`Surface::depth`]: distance
-    /// from the nominal surface plus the depth at the foot, zero exactly on the surface itself.
+    /// Signed distance of the point from the surface, mm; positive outside the material. If the surface has a
+    /// [`Surface::depth`], it is the distance from the nominal surface plus the depth at the foot point.
     pub distance: f64,
 }
 

@@ -54,7 +54,8 @@ pub(crate) struct SideContacts {
 }
 
 impl MeshSide {
-    /// Strain energy of contact with the gears displaced and deformed, N mm; the last evaluation is lost.
+    /// Strain energy of contact with the gears displaced and deformed, N mm. It overwrites the last
+    /// evaluation.
     pub fn energy(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> Result<f64, ContactError> {
         let poses = self.poses(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
@@ -98,7 +99,7 @@ impl MeshSide {
     }
 
     /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm;
-    /// negative where they are apart. Then, with modes, the last evaluation is lost.
+    /// negative where they are apart. With modes it overwrites the last evaluation.
     pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> f64 {
         // Where flanks overlap the deepest place is among the rows.
         let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));

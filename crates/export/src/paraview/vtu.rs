@@ -9,7 +9,7 @@ use mesh::{ElementBlock, ElementKind};
 /// How the appended data are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
-    /// As they are: fastest to write.
+    /// Uncompressed: fastest to write.
     Raw,
     /// Deflated: about half the size.
     Zlib,

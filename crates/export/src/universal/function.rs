@@ -16,7 +16,7 @@ pub struct Response {
 /// Amplitudes (peaks of Re(x exp(i w t))) of a force in N or of a moment in N mm over the frequency in Hz, steps even.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
-    /// Up to five lines of what it is, 80 characters each at most.
+    /// Description: up to five lines of 80 characters.
     pub words: Vec<String>,
     /// Number of the function.
     pub number: usize,

@@ -88,7 +88,7 @@ impl ContactSpring {
         &self.coefficients.stiffness
     }
 
-    /// The mesh as it runs, with flanks on both sides.
+    /// The spring of a mesh in motion; both flanks of a tooth can touch.
     ///
     /// # Errors
     /// As [`SpringMesh::new`].

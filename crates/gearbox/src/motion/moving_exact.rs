@@ -19,8 +19,8 @@ use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finit
 /// Mesh cycles either way over which the change of the energy is taken, as of a pair alone.
 const EITHER_WAY: f64 = 1e-4;
 
-/// The flanks of a pair as it moves alone ([`MeshFlanks`]): friction, a damper on each loaded slice, and the coast flanks
-/// where these may touch.
+/// Flanks of a mesh in motion, with the laws of a single pair ([`MeshFlanks`]): friction, a damper on each loaded slice,
+/// and the coast flanks if they can touch.
 ///
 /// Pitch errors and all else that the pair has are in it. Turns of the nominal motion are turns of the gears: the energy
 /// follows the mesh cycles by the moments about their axes.

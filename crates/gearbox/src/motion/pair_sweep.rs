@@ -14,9 +14,9 @@ use crate::GearboxError;
 /// Method that finds a steady state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SteadyBy {
-    /// By integration until the motion repeats.
+    /// Integrates until the motion repeats itself.
     Running,
-    /// By shooting, then by integration for what is left.
+    /// Shoots first, then integrates the motions that are left.
     Shooting,
 }
 

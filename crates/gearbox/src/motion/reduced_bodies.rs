@@ -43,7 +43,7 @@ pub struct ReducedBodies {
 pub struct ReductionCertificate {
     /// Coordinates of the whole, and of the reduced model.
     pub coordinates: [usize; 2],
-    /// Modes of shafts with their seats held that are kept.
+    /// Retained modes of the shafts, with their seats held.
     pub modes: usize,
     /// Frequency that was asked for, rad/s.
     pub limit: f64,

@@ -78,7 +78,7 @@ impl GearboxMechanism {
         Ok(State::new(time, z, v))
     }
 
-    /// That the load of a pair, of one mesh and one torque over time, is below what round-off of places makes of the stiffness
+    /// The error that the load of a pair, of one mesh and one torque over time, is below what round-off of places makes of the stiffness
     /// of its teeth; `None` where it is not.
     fn too_light(&self, time: f64) -> Option<GearboxError> {
         let ([mesh], [output]) = (&self.meshes[..], &self.operation.torques[..]) else { return None };

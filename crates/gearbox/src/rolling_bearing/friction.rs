@@ -18,9 +18,9 @@ fn axial_factor(angle: f64) -> f64 {
 /// Moment of friction of a rolling bearing in an oil bath, N mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingFriction {
-    /// By the load.
+    /// Friction moment by the load.
     pub by_load: f64,
-    /// By the oil.
+    /// Friction moment by the oil.
     pub by_oil: f64,
 }
 

@@ -13,7 +13,7 @@ pub(super) struct Directions<'a> {
     /// dR/dF of all rows, mm/N.
     compliance: Mat<f64>,
     torque_levers: Vec<f64>,
-    /// That of the rows that press.
+    /// System of the rows in contact.
     pressing: Pressing,
 }
 

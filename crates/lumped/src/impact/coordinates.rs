@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Free coordinates of a pair and what they do to the gears: d = T q.
 ///
-/// The driven gear's turn is a coordinate in mm on its base circle, positive when it lags: the dynamic transmission error
-/// itself (less the kinematic one), so that it keeps its digits however far the driver has turned.
+/// The coordinate of the driven gear is its lag in mm on the base circle: the dynamic transmission error without its
+/// kinematic part. It keeps all its digits after any number of rotations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidCoordinates {
     /// T, 12 x n.

@@ -65,7 +65,7 @@ pub enum FindingKind {
 pub struct Finding {
     /// How bad it is.
     pub severity: Severity,
-    /// What it is about.
+    /// Kind of the finding.
     pub kind: FindingKind,
     /// The finding in words and figures.
     pub text: String,

@@ -42,6 +42,9 @@ impl MshError {
     pub fn hint(&self) -> Option<String> {
         match &self.problem {
             MshProblem::Other { kind } => Some(kind.way_to_a_mesh(&self.path)),
+            MshProblem::Syntax { .. } if self.section == "start of file" => {
+                Some("give a mesh that Gmsh has written: `.msh`, format 2.2 or 4.1".into())
+            }
             other => other.hint(),
         }
     }

@@ -46,7 +46,7 @@ impl OtherFormat {
         known.iter().find(|(_, all)| all.iter().any(|with| begins(with))).map(|(kind, _)| *kind)
     }
 
-    /// What it is, in words.
+    /// Name of the format, in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Step => "a CAD file (STEP)",

@@ -250,6 +250,23 @@ fn information_about_a_gear() {
     assert!((bore.area - expected).abs() < 2e-3 * expected, "{} mm^2, not {expected}", bore.area);
 }
 
+/// Flanks that nobody has named: tips tell how many teeth there are, of a whole gear and of a sector, and the rim of a
+/// ring has none.
+#[test]
+fn tips_tell_how_many_teeth_there_are() {
+    for (name, teeth) in [("tutorial_pinion.msh", 23), ("sector3_hex20.msh", 30), ("coarse_hex8_pinion.msh", 30)] {
+        let mut mesh = repository_mesh(name);
+        mesh.surfaces.clear();
+        assert_eq!(MeshInfo::new(&mesh).gear.teeth, Some(teeth), "{name}");
+        // Its outside in, as that of a ring: the bore, now outside, is smooth.
+        mesh.nodes.iter_mut().for_each(|x| {
+            let scale = 1e3 / (x[0] * x[0] + x[1] * x[1]);
+            [x[0], x[1]] = [scale * x[0], scale * x[1]];
+        });
+        assert_eq!(MeshInfo::new(&mesh).gear.teeth, None, "{name}");
+    }
+}
+
 #[test]
 fn a_sound_mesh_has_no_findings() {
     for name in ["sector3_hex8_v22_ascii.msh", "sector3_hex20.msh", "periodic_hex8.msh", "periodic_hex20.msh"] {

@@ -12,7 +12,7 @@ const SAME_LOAD: f64 = 1e-10;
 pub(super) struct Placed {
     /// Copy and number of each load.
     pub coordinates: Vec<(u32, usize)>,
-    /// The different ones, on nodes of the sector.
+    /// The loads that differ, on nodes of the sector.
     pub own: Vec<Load>,
 }
 

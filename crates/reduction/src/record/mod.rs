@@ -1,4 +1,5 @@
 //! A reduced gear without its factor: what a later run needs of it, and how that is kept in a file.
+#![doc = include_str!("format.md")]
 
 mod columns;
 mod error;
@@ -38,7 +39,7 @@ const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 /// factor: a reducer from a record asks a [`PartStore`](crate::PartStore) for it, or makes it again, when displacement fields or stress modes
 /// are asked for.
 ///
-/// File, little-endian, `docs/cache.md`:
+/// File, little-endian, `format.md` beside this file:
 ///
 /// | bytes | what |
 /// |---|---|

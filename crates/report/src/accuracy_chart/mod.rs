@@ -59,7 +59,7 @@ pub(crate) fn documented(models: &WorkPrecision, methods: &MotionPrecision, spee
 /// A chart that is drawn.
 #[derive(Debug)]
 pub struct Chart {
-    /// What it is about, in words.
+    /// Subject of the chart, in words.
     subtitle: String,
     /// Rows of all points.
     tables: Vec<Table>,

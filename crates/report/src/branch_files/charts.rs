@@ -1,6 +1,7 @@
 //! Charts of a branch: its stable and its unstable parts, bifurcations, and motions in time.
 
 use analysis::branch::{BranchPoint, LossName};
+use answer::label_of;
 
 use super::{MeshOnBranch, ShownBranch};
 use crate::charts::{Curve, dot_chart, dot_picture};
@@ -15,12 +16,12 @@ const LOOSE: usize = 4;
 /// The transmission error along the branch of a pair, for a file of its own.
 pub(crate) fn picture(branch: &ShownBranch<'_>) -> Option<String> {
     let mesh = branch.meshes.first()?;
-    dot_picture(TITLE, branch.key, DTE, &transmission_errors(mesh))
+    dot_picture(TITLE, &label_of(branch.key), DTE, &transmission_errors(mesh))
 }
 
 /// Charts of a page: transmission error and forces of each mesh, multipliers.
 pub(crate) fn charts(branch: &ShownBranch<'_>) -> Vec<String> {
-    let key = branch.key;
+    let key = &label_of(branch.key);
     let of_mesh = |mesh: &MeshOnBranch<'_>| {
         let title = |what: &str| match mesh.names[1].as_str() {
             "" => what.to_owned(),

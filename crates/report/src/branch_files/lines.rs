@@ -6,15 +6,15 @@ use crate::page::Line;
 
 /// Figures of a branch over a key; `largest`: of each mesh its name and the motion with the largest peak to peak.
 pub(crate) fn lines(key: &str, of: &BranchFigures, largest: &[(&str, &BranchPoint)]) -> Vec<Line> {
-    let listed = |values: &[f64]| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
+    let listed = |values: &[f64]| values.iter().map(|v| six_digits(*v)).collect::<Vec<_>>().join(", ");
     let peaks = largest.iter().map(|(name, point)| {
         let label =
             if name.is_empty() { "largest peak-to-peak DTE".to_owned() } else { format!("{name}: largest p-p DTE") };
-        Line::number(label, point.peak_to_peak_dte_um, 4, format!("um at {:.6}", point.value))
+        Line::number(label, point.peak_to_peak_dte_um, 4, format!("um at {}", six_digits(point.value)))
     });
     let cycles = format!("{} unstable, {} mesh cycle(s) each", of.unstable, of.period_cycles);
     let mut all = vec![
-        Line::text(key, format_args!("{:.6} .. {:.6}", of.range[0], of.range[1]), ""),
+        Line::text(key, format_args!("{} .. {}", six_digits(of.range[0]), six_digits(of.range[1])), ""),
         Line::text("motions", of.motions, cycles),
     ];
     all.extend(peaks);
@@ -29,4 +29,11 @@ pub(crate) fn lines(key: &str, of: &BranchFigures, largest: &[(&str, &BranchPoin
     ]);
     all.extend(of.broken.as_ref().map(|why| Line::text("the branch ends within its range", "", why)));
     all
+}
+
+/// A value of the key with six significant digits, no zeros behind them.
+pub(crate) fn six_digits(value: f64) -> String {
+    let places = (5.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 12.0) as usize;
+    let text = format!("{value:.places$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -7,7 +7,7 @@ mod tables;
 use analysis::branch::{BranchPoint, BranchTurn, TimePoint};
 
 pub(crate) use charts::{charts, picture};
-pub(crate) use lines::lines;
+pub(crate) use lines::{lines, six_digits};
 pub(crate) use tables::tables;
 
 /// A branch as files and pages show it.

@@ -22,7 +22,7 @@ const ROOM: f64 = 0.05;
 /// What stands around a map.
 #[derive(Debug, Clone, Copy)]
 pub struct MapWords<'a> {
-    /// What it shows.
+    /// Title of the map.
     pub title: &'a str,
     /// Quantities across and up, with their units.
     pub sides: [&'a str; 2],

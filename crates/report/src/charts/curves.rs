@@ -19,7 +19,7 @@ const LEGEND_ROOM: f64 = 0.09;
 /// Curves over one pair of axes, for a page of any kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineChart {
-    /// What it shows.
+    /// Title of the chart.
     pub title: &'static str,
     /// Names of the axes with units.
     pub axes: [&'static str; 2],

@@ -28,7 +28,7 @@ pub struct Side<'a> {
 /// Values of cells.
 #[derive(Debug, Serialize)]
 pub struct FieldMap<'a> {
-    /// What it shows.
+    /// Title of the map.
     #[serde(serialize_with = "units")]
     pub title: String,
     /// Horizontal and vertical side.

@@ -41,7 +41,7 @@ pub struct LevelLine {
 pub struct Mark {
     /// Where.
     pub at: [f64; 2],
-    /// What it is.
+    /// Text at this place.
     pub text: String,
 }
 

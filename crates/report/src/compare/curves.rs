@@ -23,7 +23,7 @@ pub struct Overlay {
     pub table: String,
     /// Column of the table, with unit; `te_um` where a static transmission error stands beside a dynamic one.
     pub name: String,
-    /// What it is over, with unit.
+    /// Abscissa, with its unit.
     pub over: String,
     /// Runs that have it.
     pub traces: Vec<Trace>,

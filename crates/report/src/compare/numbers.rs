@@ -19,7 +19,7 @@ pub struct NumberRow {
     pub differences: Vec<Option<Difference>>,
 }
 
-/// How far a number is from the first run's.
+/// Difference between a number and that of the first run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Difference {
     /// This run's less the first one's, in the unit of the key.
@@ -41,15 +41,23 @@ pub struct WordRow {
 /// Parts of the summary beside the headline that are worth a row.
 pub const BESIDE: [&str; 5] = ["geometry.eps_gamma", "dof_before", "dof_after", "cost.wall_s", "cost.peak_memory_mb"];
 
-/// Headline numbers of all runs, then contact ratio, degrees of freedom and cost: in the order of the first run that
-/// has them.
+/// Headline numbers of all runs in the order of their lists, which begin with the physics and end with residuals and
+/// counts; then contact ratio, degrees of freedom and cost.
 pub fn headline_rows(runs: &[ResultFolder]) -> Vec<NumberRow> {
     let row = |(key, values): (String, Vec<Option<f64>>)| {
         let first = values.first().copied().flatten();
         let differences = values.iter().skip(1).map(|v| Some(difference(first?, (*v)?))).collect();
         NumberRow { key, values, differences }
     };
-    by_key(runs.iter().map(numbers)).into_iter().map(row).collect()
+    let mut rows = by_key(runs.iter().map(numbers));
+    let lists = || analysis::objects().into_iter().filter(|(name, _)| name.starts_with("headline"));
+    let listed: Vec<&str> = lists().flat_map(|(_, keys)| keys).map(|key| key.name).collect();
+    let beside = |key: &str| BESIDE.iter().any(|own| key.starts_with(own));
+    rows.sort_by_key(|(key, _)| {
+        let first = key.split(['.', '[']).next().unwrap_or_default();
+        (beside(key), listed.iter().position(|own| *own == first).unwrap_or(listed.len()))
+    });
+    rows.into_iter().map(row).collect()
 }
 
 /// A row for each key, in the order in which they first appear, with the value of every run that has it: of one that

@@ -136,7 +136,7 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, ReportError
     Ok(all.into_iter().flatten().collect())
 }
 
-/// That rows have no column of that name.
+/// The error that rows have no column of that name.
 fn missing(name: &str) -> ReportError {
     StudyError::NoColumn { name: name.to_owned() }.into()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use analysis::remark::{self, Remark};
-use answer::{Answer, Cost, Table, shown_units};
+use answer::{Answer, Cost, Table, label_of, shown_units};
 use design::Stop;
 use plan::{NumberOptimum, goal_of, goal_unit};
 use scene::{
@@ -238,7 +238,11 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let [start, best] = of.goals();
     let unit = goal_unit(plan);
     page.push(Part::new("Before and after").closing().lines([
-        Line::text("goal", names(of).join(", "), "mean absolute value"),
+        Line::text(
+            if plan.goals.len() > 1 { "goal: mean of the absolute values" } else { "goal" },
+            names(of).join(", "),
+            "",
+        ),
         Line::number("goal at the start", start, 4, &unit),
         Line::number(format!("optimum, {}", counted(optimum.found.steps.len(), "evaluation")), best, 4, &unit),
     ]));
@@ -270,8 +274,13 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     page.push(parameter_part(found.map(|((parameter, found), value)| (parameter, *found, *value))));
     let steps = optimum.found.steps.iter().enumerate();
     let goals = steps.filter_map(|(i, step)| Some(((i + 1) as f64, step.goal?))).collect();
+    let goal = match &plan.goals[..] {
+        [only] => label_of(&only.name()),
+        _ if unit.is_empty() => "mean of the goals".to_owned(),
+        _ => format!("mean of the goals [{unit}]"),
+    };
     let curve = [Curve { label: "goal".to_owned(), points: goals }];
-    page.push(Part::more().figures(line_chart("The search", "evaluation", "goal", &curve, false)));
+    page.push(Part::more().figures(line_chart("The search", "evaluation", &goal, &curve, false)));
     let run = format!("ale-gear run {} {} --out DIR", plan.scene_file().display(), of.settings().join(" "));
     page.push(Part::new("The optimum by itself").with(Content::Plain(run)));
     page.push(cost_part(&answer.cost));

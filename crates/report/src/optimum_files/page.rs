@@ -125,7 +125,7 @@ fn influences(summary: &Optimised) -> Part {
             Cell::number(i.goal_change_more_um, 4),
         ]
     });
-    let head = ["parameter", "step", "goal with a step less um", "a step more um"];
+    let head = ["parameter", "step", "goal, step less um", "goal, step more um"];
     Part::new("What a step of the machine changes")
         .grid(Grid::new(head).rows(rows))
         .note("Changes of the goal by a step are of first order, from the derivatives at the optimum.")

@@ -5,7 +5,7 @@ use pulldown_cmark::{Event, Options, Parser, html::push_html};
 
 /// Markdown as a part of a page; what looks like a tag, as in the name of a scene, is text.
 pub(super) fn markdown(text: &str) -> Value {
-    Value::from_safe_string(html(text))
+    Value::from_safe_string(html(&answer::shown_units(text)))
 }
 
 fn html(markdown: &str) -> String {
@@ -15,7 +15,8 @@ fn html(markdown: &str) -> String {
     };
     let mut html = String::new();
     push_html(&mut html, Parser::new_ext(markdown, Options::ENABLE_TABLES).map(plain));
-    html
+    // A wide table scrolls by itself, as all tables of a page do. Text has no such tags: it is escaped.
+    html.replace("<table>", "<div class=\"scroll\"><table>").replace("</table>", "</table></div>")
 }
 
 #[cfg(test)]
@@ -27,5 +28,6 @@ mod tests {
         let page = html("| a | b |\n|---|---:|\n| 1 | <b>2</b> |\n\n<script>alert(1)</script>\n");
         assert!(page.contains("<td>1</td>") && page.contains("&lt;b&gt;2&lt;/b&gt;"), "{page}");
         assert!(!page.contains("<script>"), "{page}");
+        assert!(page.starts_with("<div class=\"scroll\"><table>") && page.contains("</table></div>"), "{page}");
     }
 }

@@ -31,7 +31,7 @@ pub struct Part {
     pub title: String,
     /// One paragraph below it.
     pub words: String,
-    /// What it shows.
+    /// Content of the part.
     pub contents: Vec<Content>,
     /// In small letters below all.
     pub note: String,
@@ -62,7 +62,7 @@ pub enum Content {
 /// A label, its value and its unit.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Line {
-    /// What it is.
+    /// Label of the line.
     pub label: String,
     /// The number as it is shown.
     pub value: String,

@@ -2,7 +2,7 @@
 //!
 //! In a page they stand in this order: [`UPLOT`], [`CHARTS`], [`THREE`], [`VIEW`] or [`GEARBOX`].
 
-/// How pages look, light and dark.
+/// Style sheet of the pages, light and dark.
 pub const STYLE: &str = include_str!("style.css");
 /// How uPlot's charts look.
 pub const UPLOT_STYLE: &str = include_str!("../../assets/uPlot.min.css");

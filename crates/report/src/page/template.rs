@@ -38,6 +38,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_filter("markdown", markdown);
     environment.add_filter("code", code);
+    environment.add_filter("breaks", breaks);
     environment.add_function("number", number);
     environment.add_function("science", science);
     let parts = [
@@ -93,6 +94,13 @@ fn code(text: &str) -> Value {
         html += if is_code { "</code>" } else { "" };
     }
     Value::from_safe_string(html)
+}
+
+/// A text whose keys may go on in the next line behind a dot or an underscore; text without a key stays.
+fn breaks(text: &str) -> Value {
+    let text = escaped(text);
+    let is_key = text.contains('_');
+    Value::from_safe_string(if is_key { text.replace('_', "_<wbr>").replace('.', ".<wbr>") } else { text })
 }
 
 /// A number with so many decimals, `-` when there is none.

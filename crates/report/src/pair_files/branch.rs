@@ -1,13 +1,14 @@
 //! Periodic motions along a key, around folds: pictures, page, closing table.
 
 use analysis::lumped::ContinuationResult;
+use answer::label_of;
 use scene::Scene;
 use store::folder::ResultDirectory;
 
 use super::common::{Shown, key, pair_answer, pair_page};
 use crate::{
     Cost, ReportError, Written,
-    branch_files::{ShownBranch, charts, lines, picture, tables},
+    branch_files::{ShownBranch, charts, lines, picture, six_digits, tables},
     page::Line,
     write_result,
 };
@@ -34,11 +35,11 @@ pub(super) fn write_continuation_result(
     let shown = Shown {
         subtitle: format!(", periodic motions over {}", h.key),
         key: vec![
-            [h.key.to_owned(), format!("{:.4} .. {:.4}", of.range[0], of.range[1])],
+            [label_of(h.key), format!("{} .. {}", six_digits(of.range[0]), six_digits(of.range[1]))],
             ["folds".to_owned(), of.folds.len().to_string()],
             key("largest peak-to-peak DTE", h.largest.peak_to_peak_dte_um, 3, "um"),
         ],
-        over: format!("Over {}", h.key),
+        over: format!("Over {}", label_of(h.key)),
         charts: charts(&branch),
         headline,
         ..Shown::default()

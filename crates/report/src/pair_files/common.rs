@@ -48,7 +48,7 @@ pub(super) fn pair_answer<H: Serialize>(
 /// What a page of a pair shows beside what all have.
 #[derive(Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// Behind the model in the line below the title.
+    /// Text after the model, in the line below the title.
     pub subtitle: String,
     /// Numbers that people look for first.
     pub key: Vec<[String; 2]>,
@@ -56,7 +56,7 @@ pub(super) struct Shown<'a> {
     pub over: String,
     /// Charts.
     pub charts: Vec<String>,
-    /// Behind the charts.
+    /// Parts after the charts.
     pub after: Vec<Part>,
     /// Headline numbers.
     pub headline: Vec<Line>,

@@ -1,6 +1,7 @@
 //! Motions at many values of a key: diagrams, page, closing table.
 
 use analysis::lumped::{BifurcationAnalysis, SweepHeadline, SweepOptions, SweepPoint};
+use answer::label_of;
 use scene::SweepWay;
 
 use super::{
@@ -45,7 +46,9 @@ pub fn write_key_sweep_result(
     let BifurcationAnalysis { scene, facts, points, headline: h, remarks } = found;
     let tables = vec![key_rows::sweep(options, points), key_rows::bifurcation(options, points)];
     let diagram = by_way(points, |p| p.points.clone());
-    if let Some(picture) = dot_picture(BIFURCATION, &options.key, &options.quantity.name, &diagram) {
+    if let Some(picture) =
+        dot_picture(BIFURCATION, &label_of(&options.key), &label_of(&options.quantity.name), &diagram)
+    {
         results.write("bifurcation.svg", picture.as_bytes())?;
     }
     let h = &SweepHeadline { again: again.map(str::to_owned), ..h.clone() };
@@ -53,11 +56,11 @@ pub fn write_key_sweep_result(
     let shown = Shown {
         subtitle: format!(", motion over {}", h.key),
         key: vec![
-            [h.key.clone(), format!("{} .. {}", h.range[0], h.range[1])],
+            [label_of(&h.key), format!("{} .. {}", h.range[0], h.range[1])],
             ["sections of one point".to_owned(), format!("{} of {}", h.period_one, h.points)],
         ],
-        over: format!("Over {}", h.key),
-        charts: bifurcation_charts(&h.key, &h.section_of, points),
+        over: format!("Over {}", label_of(&h.key)),
+        charts: bifurcation_charts(&label_of(&h.key), &label_of(&h.section_of), points),
         headline: lines(h),
         again: again.map(str::to_owned),
         ..Shown::default()

@@ -1,5 +1,6 @@
 //! An output over one axis.
 
+use answer::label_of;
 use cases::Axis;
 use scene::plan::Plan;
 
@@ -16,8 +17,8 @@ const CURVES: usize = 12;
 /// where others are drawn, quantiles of the samples. Else a dot a case.
 pub(super) fn over_axes(plan: &Plan, known: &KnownCases, output: &Column) -> Vec<String> {
     let chart = |axis: usize| {
-        let (x, y) = (&known.axes[axis].name, &output.name);
-        let title = format!("{y} over {x}");
+        let (x, y) = (&label_of(&known.axes[axis].name), &label_of(&output.name));
+        let title = format!("{} over {}", plain(y), plain(x));
         let gone_through = matches!(&plan.cases.axes()[axis], Axis::Each(values) if values.len() > 1);
         match curves(plan, known, output, axis).filter(|_| gone_through) {
             Some(curves) => line_chart(&title, x, y, &curves, false),
@@ -25,6 +26,11 @@ pub(super) fn over_axes(plan: &Plan, known: &KnownCases, output: &Column) -> Vec
         }
     };
     (0..known.axes.len()).filter_map(chart).collect()
+}
+
+/// A label without its unit, for a title.
+pub(super) fn plain(label: &str) -> &str {
+    label.split(" [").next().unwrap_or_default()
 }
 
 fn points(known: &KnownCases, output: &Column, axis: usize) -> Vec<(f64, f64)> {
@@ -60,10 +66,11 @@ fn curves(plan: &Plan, known: &KnownCases, output: &Column, axis: usize) -> Opti
     Some(curves)
 }
 
-/// What tells a curve from the others: `tip_relief_um 6`.
+/// What tells a curve from the others: `tip relief [µm] 6`.
 fn label(known: &KnownCases, axes: &[usize], case: usize) -> String {
     let one = |&k: &usize| {
-        let name = known.axes[k].name.rsplit('.').next().unwrap_or_default();
+        let name = label_of(&known.axes[k].name);
+        let name = name.rsplit(", ").next().unwrap_or_default();
         format!("{name} {}", words(known.axes[k].values[case]))
     };
     axes.iter().map(one).collect::<Vec<_>>().join(", ")

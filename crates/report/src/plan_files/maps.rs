@@ -1,8 +1,10 @@
 //! An output over two axes: contours where both are gone through, coloured dots where both are drawn.
 
+use answer::label_of;
 use cases::Axis;
 use scene::plan::Plan;
 
+use super::curves::plain;
 use crate::charts::{GridValues, MapWords, coloured_dots, contour_map};
 use plan::{Column, KnownCases};
 
@@ -41,19 +43,27 @@ fn section(known: &KnownCases, output: &Column, [a, b]: [usize; 2], best: usize)
         });
         values[j * places[0].len() + i] = output.values[case];
     }
-    let fixed: Vec<&str> =
-        others.iter().filter(|&&k| known.axes[k].varies()).map(|&k| known.axes[k].name.as_str()).collect();
+    let fixed = others.iter().filter(|&&k| known.axes[k].varies()).map(|&k| label_of(&known.axes[k].name));
+    let fixed: Vec<String> = fixed.map(|label| plain(&label).to_owned()).collect();
     let rest = if fixed.is_empty() { String::new() } else { format!(" ({} as where it is least)", fixed.join(", ")) };
-    contour_map(says(known, output, [a, b], &format!("{}{rest}", output.name)), &GridValues { places, values })
+    let (sides, quantity) = labels(known, output, [a, b]);
+    let title = format!("{}{rest}", plain(&quantity));
+    contour_map(says(&sides, &quantity, &title), &GridValues { places, values })
 }
 
 fn scatter(known: &KnownCases, output: &Column, [a, b]: [usize; 2]) -> Option<String> {
     let dots: Vec<[f64; 3]> = (0..known.count())
         .map(|case| [known.axes[a].values[case], known.axes[b].values[case], output.values[case]])
         .collect();
-    coloured_dots(says(known, output, [a, b], &output.name), &dots)
+    let (sides, quantity) = labels(known, output, [a, b]);
+    coloured_dots(says(&sides, &quantity, plain(&quantity)), &dots)
 }
 
-fn says<'a>(known: &'a KnownCases, output: &'a Column, pair: [usize; 2], title: &'a str) -> MapWords<'a> {
-    MapWords { title, sides: pair.map(|axis| known.axes[axis].name.as_str()), quantity: &output.name }
+/// Two axes and an output in words.
+fn labels(known: &KnownCases, output: &Column, pair: [usize; 2]) -> ([String; 2], String) {
+    (pair.map(|axis| label_of(&known.axes[axis].name)), label_of(&output.name))
+}
+
+fn says<'a>([x, y]: &'a [String; 2], quantity: &'a str, title: &'a str) -> MapWords<'a> {
+    MapWords { title, sides: [x, y], quantity }
 }

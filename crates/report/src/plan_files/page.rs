@@ -1,10 +1,14 @@
 //! `report.html` of a plan: how outputs are spread, what each axis does to them, and the cases as a table.
 
-use answer::Answer;
+use answer::{Answer, label_of};
 use scene::plan::{Plan, PlanAxis};
 use study::correlation;
 
-use super::{curves::over_axes, maps::maps, spread::Spread};
+use super::{
+    curves::{over_axes, plain},
+    maps::maps,
+    spread::Spread,
+};
 use plan::{Column, KnownCases};
 use store::CASES;
 
@@ -106,11 +110,11 @@ fn shown(known: &KnownCases, reports: &[usize]) -> Vec<usize> {
 
 /// Share of the cases that have no more than a value.
 fn spread(output: &Column) -> Option<String> {
-    let (name, sorted) = (&output.name, output.ascending());
+    let (name, sorted) = (&label_of(&output.name), output.ascending());
     let n = sorted.len() as f64;
     let share = |(i, &case): (usize, &usize)| (output.values[case], 100.0 * (i as f64 + 0.5) / n);
     let curve = Curve { label: String::new(), points: sorted.iter().enumerate().map(share).collect() };
-    line_chart(&format!("How {name} is spread"), name, "share of cases with no more [%]", &[curve], true)
+    line_chart(&format!("How {} is spread", plain(name)), name, "share of cases with no more [%]", &[curve], true)
 }
 
 /// Pearson's coefficient over the cases that have a number; none where one of both does not vary.

@@ -16,7 +16,7 @@ const STEPPING: [&str; 3] = ["shoot", "settle", "solve"];
 pub struct CaseRun {
     /// Rows and geometry.
     pub record: CaseRecord,
-    /// What it took, on its own share of the threads.
+    /// Cost of the case, on its own share of the threads.
     pub cost: Cost,
     /// Steps in time; `None` at rest.
     pub steps: Option<u64>,

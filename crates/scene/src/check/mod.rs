@@ -53,7 +53,7 @@ pub(super) fn scene(source: &Source<'_>, mut raw: RawScene) -> Checked<Scene> {
     let in_seconds = in_time.as_ref().is_some_and(|m| m.run == Run::Ramp || m.duration_s.is_some());
     let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {
-        name: source.title(&raw.name),
+        name: source.title(&raw.name)?,
         file: source.file.to_owned(),
         written: source.written(),
         set: source.settings.iter().map(Setting::word).collect(),

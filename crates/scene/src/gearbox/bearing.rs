@@ -18,10 +18,7 @@ pub(super) fn bearing(
 ) -> Checked<GearboxBearing> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[bearing]]", (&raw.shaft, &raw.position_mm), shafts)?;
-    let name = match &raw.name {
-        Some(word) => word.get_ref().clone(),
-        None => format!("bearing at {position} mm of {}", shafts[shaft].0),
-    };
+    let name = s.called(&raw.name)?.unwrap_or_else(|| format!("bearing at {position} mm of {}", shafts[shaft].0));
     let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
     let (stiffness, rolling) = match rolling(s, table)? {
         Some(own) => {

@@ -53,6 +53,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     }
     let mut meshes = Vec::new();
     for (i, table) in raw.mesh.iter().enumerate() {
+        s.called(&table.get_ref().name)?;
         let own = of_pairs.iter().filter(|own| means(own, i)).map(|own| own.setting.clone());
         meshes.push(mesh(s, table, &gears, own.collect())?);
     }
@@ -87,7 +88,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         Some(Asked::Motion(motion)) => (Some(motion), None),
         Some(Asked::Branch(branch)) => (None, Some(branch)),
     };
-    let name = s.title(&raw.name);
+    let name = s.title(&raw.name)?;
     let (analysis, output) = (&raw.analysis, &raw.output);
     Ok(Gearbox {
         name,
@@ -133,7 +134,7 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
     Ok(GearboxGear { name, shaft, position, seat, key, inertia })
 }
 
-/// That no mesh has friction where what is asked for has none: the contact itself has, at rest and in motion, and its maps.
+/// Checks that no mesh has friction where what is asked for has none: the contact itself has, at rest and in motion, and its maps.
 fn without_friction(
     s: &Source<'_>,
     (tables, meshes): (&[Spanned<RawMesh>], &[GearboxMesh]),
@@ -213,7 +214,7 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     Ok(GearboxMesh { name, gears: pair, scene, timing })
 }
 
-/// That every gear meshes, or has a mass at least: of another one nothing would be read.
+/// Checks that every gear meshes, or has a mass at least: of another one nothing would be read.
 fn in_mesh(s: &Source<'_>, tables: &[Spanned<RawGear>], gears: &[GearboxGear], meshes: &[GearboxMesh]) -> Checked<()> {
     let alone = |(i, gear): &(usize, &GearboxGear)| {
         gear.inertia.iter().all(Option::is_none) && !meshes.iter().any(|m| m.gears.contains(i))

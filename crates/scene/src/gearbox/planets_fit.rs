@@ -16,7 +16,7 @@ use crate::Source;
 const MISSED: f64 = 1e-4;
 
 impl WrittenOut {
-    /// That gears of two planets of a group do not touch.
+    /// Checks that gears of two planets of a group do not touch.
     pub fn apart(
         &self,
         s: &Source<'_>,
@@ -61,7 +61,7 @@ impl WrittenOut {
         Ok(())
     }
 
-    /// That teeth of every planet meet gaps of all gears in the middle. Theory (85c).
+    /// Checks that teeth of every planet meet gaps of all gears in the middle. Theory (85c).
     ///
     /// ```text
     /// psi (z_a z_pb - z_b z_pa)/(2 pi gcd(z_pa, z_pb)) whole        z_b < 0 of a ring; z_p: teeth of the planet in mesh a and b

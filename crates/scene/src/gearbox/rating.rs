@@ -43,7 +43,7 @@ pub(super) fn rating(
             .first()
             .is_none_or(|first| !first.get_ref().torque_nm.as_ref().is_some_and(|t| *t.get_ref() > 0.0))
         {
-            let advice = "give the first [[torque]] the `torque_nm` that others go with, or leave the spectrum out";
+            let advice = "give the first [[torque]] a `torque_nm` above 0, which the spectrum multiplies, or leave the spectrum out";
             return Err(s.conflict(&word.span(), "a load spectrum without a torque", advice));
         }
         if rated_mesh.is_none() && rated_bearing.is_none() {

@@ -13,7 +13,7 @@ use crate::{Source, Word};
 /// Distance between two axes that is none: digits of a file, mm.
 const ONE_AXIS: f64 = 1e-9;
 
-/// That seats in shafts have a place there, that a shaft that stands is held, and that nothing on it has to turn.
+/// Checks that seats in shafts have a place there, that a shaft that stands is held, and that nothing on it has to turn.
 pub(super) fn seats(
     s: &Source<'_>,
     raw: &RawGearbox,

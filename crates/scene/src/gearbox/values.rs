@@ -78,7 +78,7 @@ pub(super) fn needed_word<R>(
     word: &Word,
     what: &str,
 ) -> Checked<String> {
-    word.as_ref().map(|w| w.get_ref().clone()).ok_or_else(|| missing(s, table, name, key, what))
+    s.called(word)?.ok_or_else(|| missing(s, table, name, key, what))
 }
 
 pub(super) fn needed_number<R>(

@@ -131,7 +131,8 @@ fn in_motion(scene: &Scene, motion: &MotionScene, left: &mut Vec<String>) -> (Op
     let Some(text) = moving(&plain, &asked, steps).map(|text| text.replacen("\ndrive = ", &drive, 1)) else {
         left.push(match motion.run {
             Run::Continuation => "[motion]: a continuation of a gearbox has `to_speed_rpm`".to_owned(),
-            _ => "[motion]: a gearbox does not move by this model, run or length".to_owned(),
+            _ => "[motion]: its model, run or length exists for pairs only; write [motion] of the gearbox anew"
+                .to_owned(),
         });
         return (None, String::new());
     };

@@ -14,7 +14,7 @@ pub(crate) fn impact(s: &Source<'_>, raw: &RawImpact) -> Result<ImpactScene, Sce
                 "`dynamic_speed_mm_per_s` is {}, not above `static_speed_mm_per_s`, {}",
                 made.dynamic_speed_mm_per_s, made.static_speed_mm_per_s
             );
-            Err(s.conflict(&at.span(), what, "flanks stick below the one and slip above the other"))
+            Err(s.conflict(&at.span(), what, "friction is static below `static_speed_mm_per_s` and dynamic above `dynamic_speed_mm_per_s`: raise the second or lower the first"))
         }
         _ => Ok(made),
     }

@@ -54,7 +54,7 @@ pub(super) fn check(
     };
     let max_pressure_mpa = limit("max_pressure_mpa", &asked.max_pressure_mpa)?;
     let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &asked.max_edge_pressure_mpa)?;
-    let name = s.title(&raw.name);
+    let name = s.title(&raw.name)?;
     finish(Optimisation {
         name,
         file: s.file.to_owned(),
@@ -80,39 +80,52 @@ pub(super) fn check(
 /// # Errors
 /// [`SceneError`].
 pub(super) fn finish(all: Optimisation) -> Checked<Optimisation> {
-    let wrong = |what: String| SceneError::Setting { label: all.file.display().to_string(), what };
+    let wrong =
+        |what: String, advice: &str| SceneError::Asked { file: all.file.clone(), what, advice: advice.to_owned() };
     let mut keys: Vec<&str> = all.parameters.iter().flat_map(|p| &p.keys).map(String::as_str).collect();
     keys.sort_unstable();
     if let Some(twice) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(wrong(format!("changes `{}` twice", twice[0])));
+        return Err(wrong(format!("changes `{}` twice", twice[0]), "name each key once, with one pair of bounds"));
     }
     let tolerated = all.tolerances.iter().flat_map(|axis| &axis.keys).map(String::as_str);
     if keys.iter().copied().chain(tolerated).any(|key| key == TORQUE) {
-        return Err(wrong(format!("changes `{TORQUE}`: name torques in `torques_nm`")));
+        let advice = "list the torques that count: `--torques 75,150,225`, or `torques_nm` in [optimise]";
+        return Err(wrong(format!("changes `{TORQUE}`"), advice));
     }
     let scene = all.scene(&all.start(), all.torques[0].torque_nm, None)?;
     if scene.motion.is_some() || scene.analysis.model != crate::Model::Reduced || !scene.accuracy.is_none() {
         let what = "optimises a scene that is not one at rest with `model = \"reduced\"`";
-        return Err(wrong(format!("{what}: no other model has derivatives")));
+        let advice = "leave [motion] and [accuracy] out and say `model = \"reduced\"`; numbers of any other model are optimised \
+                      with `--goal`, as `--goal peak_to_peak_ste_um`";
+        return Err(wrong(format!("{what}: no other model has derivatives"), advice));
     }
     if scene.contact.method != crate::Method::Slice {
-        return Err(wrong("optimises contact of points: only that of slices has derivatives".into()));
+        let what = "optimises contact of points: only that of slices has derivatives";
+        return Err(wrong(what.into(), "say `method = \"slice\"` in [contact]"));
     }
     if let Some(out) = keys.iter().find(|key| !Scene::is_design_key(key)) {
-        return Err(wrong(format!("changes `{out}`: micro-geometry and misalignment may change")));
+        let advice = format!(
+            "add a goal of the headline, as `--goal peak_to_peak_ste_um`: then any key of a real number may change; values of a \
+             whole number are listed: `ale-gear vary {} --out DIR --vary {out}=A,B,C`",
+            all.file.display()
+        );
+        let what = "without `--goal` micro-geometry and misalignment alone may change";
+        return Err(wrong(format!("changes `{out}`: {what}"), &advice));
     }
     for (k, parameter) in all.parameters.iter().enumerate() {
         let mut values = all.start();
         values[k] = if values[k] == parameter.bounds[0] { parameter.bounds[1] } else { parameter.bounds[0] };
         let moved = all.scene(&values, all.torques[0].torque_nm, None)?;
         if (Scene { set: Vec::new(), ..moved }) == (Scene { set: Vec::new(), ..scene.clone() }) {
-            let what = format!("changes `{}`, which changes nothing: does the scene have", parameter.name());
-            return Err(wrong(format!("{what} a `drive` or `coast` of its own for it?")));
+            let advice =
+                "name a key that acts: a modification of a `drive` or `coast` flank acts in place of that of the gear";
+            return Err(wrong(format!("changes `{}`, which changes nothing", parameter.name()), advice));
         }
     }
     let numbers = all.tolerances.iter().filter(|axis| axis.pitch.is_none()).flat_map(|axis| &axis.keys);
     if let Some(key) = numbers.into_iter().find(|key| scene.number_at(key).is_none()) {
-        return Err(wrong(format!("has a tolerance for `{key}`, which has no number in the scene")));
+        let advice = "give the key its nominal value in the scene, or leave the tolerance out";
+        return Err(wrong(format!("has a tolerance for `{key}`, which has no number in the scene"), advice));
     }
     Ok(all)
 }

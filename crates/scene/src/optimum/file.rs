@@ -74,7 +74,7 @@ impl DesignParameter {
         self.keys.first().map_or("", String::as_str)
     }
 
-    /// That the search does not begin at the value of the document.
+    /// Checks that the search does not begin at the value of the document.
     pub fn begins_elsewhere(&self) -> Option<String> {
         let Self { bounds: [low, high], start, .. } = self;
         let own = self.outside?;
@@ -97,6 +97,14 @@ impl DesignParameter {
 /// Key of the torque.
 pub(super) const TORQUE: &str = "operation.torque_nm";
 
+/// The value of a key that a search changes, named in messages as the word that asks for it.
+///
+/// # Errors
+/// As of [`Setting::number`].
+pub(super) fn varied(key: &str, value: f64) -> Result<Setting, SceneError> {
+    Setting::number(key, value).map(|own| own.called(&format!("--vary {key}")))
+}
+
 impl Optimisation {
     /// Number of samples.
     pub fn samples(&self) -> usize {
@@ -108,7 +116,7 @@ impl Optimisation {
         let mut all = self.settings.clone();
         for (parameter, value) in self.parameters.iter().zip(values) {
             for key in &parameter.keys {
-                all.push(Setting::number(key, *value)?);
+                all.push(varied(key, *value)?);
             }
         }
         let deviations = sample.filter(|_| !self.tolerances.is_empty()).map(|s| self.samples.values(s));

@@ -1,10 +1,14 @@
 //! An optimisation of numbers: of a pair or a gearbox, at rest or in time; derivatives are by differences.
 
-use std::path::{Path, PathBuf};
+use std::{
+    f64::consts::FRAC_1_PI,
+    path::{Path, PathBuf},
+};
 
 use super::{
     DesignParameter,
     check::{parameters, settings, words as listed},
+    file::varied,
     schema::{EVALUATIONS, RawOptimisation},
     words::{OptimisationWords, parameter},
 };
@@ -99,11 +103,12 @@ impl NumberOptimisation {
 
     /// What the whole must be: every key is there once and changes something, and the start is a machine.
     fn finish(self) -> Result<Self, SceneError> {
-        let wrong = |what: String| SceneError::Setting { label: self.file.display().to_string(), what };
+        let wrong =
+            |what: String, advice: &str| SceneError::Asked { file: self.file.clone(), what, advice: advice.to_owned() };
         let mut keys: Vec<&str> = self.parameters.iter().flat_map(|p| &p.keys).map(String::as_str).collect();
         keys.sort_unstable();
         if let Some(twice) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(wrong(format!("changes `{}` twice", twice[0])));
+            return Err(wrong(format!("changes `{}` twice", twice[0]), "name each key once, with one pair of bounds"));
         }
         let plain = |machine: Machine| match machine {
             Machine::Pair(scene) => Machine::Pair(Box::new(Scene { set: Vec::new(), ..*scene })),
@@ -116,8 +121,23 @@ impl NumberOptimisation {
         for (k, parameter) in self.parameters.iter().enumerate() {
             let mut values = self.start();
             values[k] = if values[k] == parameter.bounds[0] { parameter.bounds[1] } else { parameter.bounds[0] };
+            let between = values[k] + FRAC_1_PI * (self.start()[k] - values[k]);
+            let at = |value: f64| {
+                self.machine(
+                    &values.iter().enumerate().map(|(i, x)| if i == k { value } else { *x }).collect::<Vec<_>>(),
+                )
+            };
+            if let (true, Err(SceneError::WrongType { .. })) = (between.fract() != 0.0, at(between)) {
+                let advice = format!(
+                    "list its values: `ale-gear vary {} --out DIR --vary {}=A,B,C`",
+                    self.file.display(),
+                    parameter.name()
+                );
+                return Err(wrong(format!("changes `{}`, which is a whole number", parameter.name()), &advice));
+            }
             if plain(self.machine(&values)?) == start {
-                return Err(wrong(format!("changes `{}`, which changes nothing", parameter.name())));
+                let advice = "name a key that acts on this machine, within other bounds";
+                return Err(wrong(format!("changes `{}`, which changes nothing", parameter.name()), advice));
             }
         }
         Ok(self)
@@ -152,7 +172,7 @@ impl NumberOptimisation {
     /// [`SceneError::Setting`] for a key that is none.
     pub fn settings_of(&self, values: &[f64]) -> Result<Vec<Setting>, SceneError> {
         let each = self.parameters.iter().zip(values);
-        let own = each.flat_map(|(p, value)| p.keys.iter().map(move |key| Setting::number(key, *value)));
+        let own = each.flat_map(|(p, value)| p.keys.iter().map(move |key| varied(key, *value)));
         self.settings.iter().cloned().map(Ok).chain(own).collect()
     }
 
@@ -224,7 +244,7 @@ pub(super) fn numbers(
     let limits = listed(&asked.limit).iter().map(|w| limit(w.get_ref()).map_err(|what| word(w, what)));
     let limits = limits.collect::<Result<Vec<_>, _>>()?;
     let evaluations = s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?;
-    let (name, file) = (s.title(&raw.name), s.file.to_owned());
+    let (name, file) = (s.title(&raw.name)?, s.file.to_owned());
     let asked_nm = asked.torques_nm.as_ref().map_or(&[][..], |list| list.get_ref());
     let asked_nm: Vec<f64> = asked_nm.iter().map(|own| *own.get_ref()).collect();
     let at = asked.torques_nm.as_ref().map_or(0..0, Spanned::span);

@@ -31,8 +31,10 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, 
     }
     let [keys, wanted] = [&raw_vary.keys, &raw_vary.output].map(|all| all.as_deref().unwrap_or_default());
     if keys.is_empty() {
-        let advice = "say keys and values: `keys = [\"operation.torque_nm=50,100,200\"]` in [vary]";
-        return Err(nothing("a plan that varies nothing", advice));
+        let advice = "say keys with values: `--vary 'operation.torque_nm=50,100,200' --output peak_to_peak_ste_um`, or `keys` \
+                      and `output` in [vary]";
+        let (file, what) = (s.file.to_owned(), "nothing is varied".to_owned());
+        return Err(SceneError::Asked { file, what, advice: advice.to_owned() });
     }
     if wanted.is_empty() {
         let advice = "name numbers: `output = [\"peak_to_peak_ste_um\", \"least(contact_line_length_mm)\"]` in [vary]";
@@ -56,7 +58,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, 
         PlanOutput::parse(word.get_ref()).map_err(|what| s.conflict(&word.span(), what, OUTPUTS))
     };
     let outputs = wanted.iter().map(output).collect::<Checked<Vec<_>>>()?;
-    let name = s.title(&raw.name);
+    let name = s.title(&raw.name)?;
     let file = s.file.to_owned();
     finish(Plan { name, file, document, settings, axes, sampling, cases, outputs })
 }
@@ -124,18 +126,18 @@ pub(super) fn finish(plan: Plan) -> Checked<Plan> {
     let mut keys: Vec<&str> = plan.axes.iter().flat_map(|axis| &axis.keys).map(String::as_str).collect();
     keys.sort_unstable();
     if let Some(twice) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(SceneError::Twice {
+        return Err(SceneError::Asked {
             file: plan.file,
-            what: format!("`{}` is varied", twice[0]),
+            what: format!("`{}` is varied twice", twice[0]),
             advice: format!("name each key once, with all its values: `--vary {}=50,100,200`", twice[0]),
         });
     }
     let mut names: Vec<String> = plan.outputs.iter().map(PlanOutput::name).collect();
     names.sort_unstable();
     if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(SceneError::Twice {
+        return Err(SceneError::Asked {
             file: plan.file,
-            what: format!("`{}` is asked for", twice[0]),
+            what: format!("`{}` is asked for twice", twice[0]),
             advice: "ask for each number once".to_owned(),
         });
     }
@@ -167,7 +169,7 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
     }
 }
 
-/// That every key of `[vary]` goes with how values start.
+/// Checks that every key of `[vary]` goes with how values start.
 pub(super) fn fits(s: &Source<'_>, start: Start, raw: &RawPlan) -> Result<(), SceneError> {
     const EACH: &[Start] = &[Start::Each];
     const CARRY: &[Start] = &[Start::Carry];

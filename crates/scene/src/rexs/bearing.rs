@@ -164,7 +164,7 @@ fn clearance(t: &mut String, part: &Part<'_, '_>, has_angle: bool) -> Result<(),
     Ok(())
 }
 
-/// What it takes along the axis.
+/// Directions in which a bearing takes thrust.
 fn axial(
     t: &mut String,
     part: &Part<'_, '_>,

@@ -61,7 +61,7 @@ pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGe
     Ok(Some(RexsGearbox { text: writer.text, scenes, remarks }))
 }
 
-/// That the file has nothing which a gearbox file cannot say and without which it would be another gearbox.
+/// Checks that the file has nothing which a gearbox file cannot say and without which it would be another gearbox.
 fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
     let hint = || "take a pair alone with `--stage N`".to_owned();
     let bearings = model.relations("side").count();

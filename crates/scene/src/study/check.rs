@@ -47,7 +47,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns
     let over_time = over_time.collect::<Checked<_>>()?;
     let follow = raw.follow.iter().map(|t| follow(s, t, known)).collect::<Checked<_>>()?;
     let full = raw.full.as_ref().map(|t| full(s, t, &cases)).transpose()?.flatten();
-    let name = s.title(&raw.name);
+    let name = s.title(&raw.name)?;
     let parameter = raw.parameter.map_or_else(|| "value".into(), Spanned::into_inner);
     Ok(Study { name, file: s.file.to_owned(), parameter, cases, quantities, over_time, follow, full })
 }

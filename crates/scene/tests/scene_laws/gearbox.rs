@@ -48,6 +48,21 @@ fn a_gearbox_is_read_as_it_is_written() {
     assert!((file.shafts[0].density - 7.85e-9).abs() < 1e-20, "{}", file.shafts[0].density);
 }
 
+/// A name is a name: an empty one is refused, of every part and of the file.
+#[test]
+fn empty_names_are_refused() {
+    let whole = text();
+    let names: Vec<&str> = whole.lines().filter(|line| line.starts_with("name = ")).collect();
+    assert!(names.len() > 8, "{names:?}");
+    for line in names {
+        let complaint = refused(line, "name = \" \"");
+        assert!(
+            complaint.to_string().contains("the name is empty") && complaint.place().is_some(),
+            "{line}: {complaint}"
+        );
+    }
+}
+
 /// Gears at two heights have the offset that their positions say, whatever heights shafts begin at; what the scene of the
 /// pair says of it may agree.
 #[test]

@@ -19,7 +19,7 @@ pub struct Calculix {
 /// A finished run of one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalculixRun {
-    /// What it found.
+    /// Result of the run.
     pub result: CalculixResult,
     /// Wall time of the process, s.
     pub wall_s: f64,

@@ -61,7 +61,7 @@ pub struct MotionCalibration {
     pub pairs: usize,
     /// Share of them that lies within a bound.
     pub coverage: f64,
-    /// By quantity.
+    /// Laws by quantity.
     pub quantities: Vec<MotionLaws>,
 }
 

@@ -84,7 +84,7 @@ impl MotionAnswer {
         Self::of(scene, cache, observer, &mut MotionTold { motion: &mut NoMotionSink, lumped: &mut NoLumpedSink })
     }
 
-    /// By how much of itself steps may change the peak to peak of the motion, %; `None` where nobody knows.
+    /// Estimated change of the peak to peak by the steps, %; `None` where there is no estimate.
     pub fn step_error_percent(&self) -> Option<f64> {
         match self {
             Self::Lumped(result) => result.headline.certificate.step_error_percent,

@@ -127,7 +127,7 @@ impl<'a> KeySweep<'a> {
 /// The first value with a model.
 ///
 /// # Errors
-/// That of the first value where none has a model.
+/// The error of the first value, if no value has a model.
 fn first_of(values: &[SweepValue]) -> Result<(&LumpedInputs, LumpedSystem), AnalysisError> {
     let mut error = None;
     for value in values {

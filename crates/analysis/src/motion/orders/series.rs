@@ -60,7 +60,7 @@ impl MotionSeries {
         self.dte_um.is_empty()
     }
 
-    /// That `series` are as long as the transmission error, and that a mesh cycle has values.
+    /// Checks that `series` are as long as the transmission error, and that a mesh cycle has values.
     pub(super) fn check(&self, series: &[&[f64]], per_cycle: usize) -> Result<(), StudyError> {
         if per_cycle == 0 {
             return Err(StudyError::NotPositive { quantity: "values in a mesh cycle", value: 0.0 });

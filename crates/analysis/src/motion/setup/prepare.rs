@@ -45,7 +45,7 @@ pub(crate) struct MotionInputs<'a> {
 }
 
 impl<'a> MotionInputs<'a> {
-    /// Geometry and meshes; `motion`: what the scene says of it.
+    /// Geometry and meshes of the scene; `motion` is its [motion] table.
     pub fn new(
         (scene, motion): (&'a Scene, &'a MotionScene),
         in_memory: Option<[&Mesh; 2]>,

@@ -48,7 +48,7 @@ pub struct SweepResult {
     pub campbell: CampbellDiagram,
     /// The mesh cycle at rest that the motions start from.
     pub quasi_static: QuasiStatic,
-    /// What it was made of, with its certificate.
+    /// Facts about the model, with its certificate.
     pub facts: RunInfo,
     /// What a user should hear.
     pub remarks: Vec<Remark>,

@@ -6,7 +6,8 @@ use super::{MeshContact, PoseContact, pose_bin::PoseBin};
 
 impl MeshContact {
     /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Teeth are
-    /// undeformed but for the kept modes. With modes the last evaluation is lost.
+    /// undeformed but for the kept modes. With modes it overwrites the
+    /// last evaluation.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
         if self.modal.is_some() {
             self.stash();
