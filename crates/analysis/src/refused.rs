@@ -36,7 +36,7 @@ impl Refusal {
 
     /// The error that a scene does not ask for what is wanted of it.
     pub(crate) fn unasked(wanted: &str) -> Self {
-        let hint = "`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what";
+        let hint = "set `run` in [motion] to what is wanted, and `model` in [analysis] to a model that has it";
         Self::input(format!("no {wanted}"), hint)
     }
 

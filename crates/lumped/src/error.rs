@@ -149,7 +149,7 @@ impl LumpedError {
                 let needed = match *motion {
                     "along x" => "a stiffness along x at two places",
                     "along y" => "a stiffness along y at two places",
-                    "along z" => "a stiffness along z at one place: its helical teeth push",
+                    "along z" => "a stiffness along z at one place, because helical teeth push along the axis",
                     "tilting about x" => "a stiffness along y at a second place, or one about x",
                     _ => "a stiffness along x at a second place, or one about y",
                 };

@@ -185,7 +185,7 @@ impl OptimiseArgs {
         let of = OptimumResult { optimum: &optimum, summary: &summary, scene: &scene, again: &again };
         let text = write_optimum(&of, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
-        let hint = "allow more, or let more parameters change, within wider bounds (`--vary`)";
+        let hint = "raise the limit, add parameters, or widen their bounds (`--vary`)";
         let failure = passed_limits(&optimum)
             .map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
         Answer::of_folder(&self.out, (text, failure), (self.json, quiet))
@@ -232,7 +232,7 @@ impl OptimiseArgs {
         let text = write_number_optimum(&of, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         done.remove().map_err(complain)?;
-        let hint = "allow more, or let more parameters change, within wider bounds (`--vary`)";
+        let hint = "raise the limit, add parameters, or widen their bounds (`--vary`)";
         let failure =
             of.passed_limits().map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
         Answer::of_folder(&self.out, (text, failure), (self.json, quiet))

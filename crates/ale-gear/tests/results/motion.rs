@@ -311,7 +311,7 @@ fn wrong_motions_are_told_with_line_and_hint() {
     );
     says(
         of("[load]\ntable_s_nm = [[0.1, 3.0], [0.1, 4.0]]\n"),
-        "25: `table_s_nm` goes back to 0.1 s\nhint: rows of time (s, ascending) and torque (N m): table_s_nm = [[0.0, \
+        "25: `table_s_nm` goes back to 0.1 s\nhint: rows of time (s, ascending) and torque (N·m): table_s_nm = [[0.0, \
          150.0], [0.1, -20.0]]",
     );
     says(

@@ -242,25 +242,25 @@ mod tests {
     #[test]
     fn advice_finds_neighbours_tables_and_units() {
         let of = |table: &str| tables().into_iter().find(|(name, _)| name == table).unwrap().1;
-        assert_eq!(advice((tables, None), "face_widht_mm", &of("pair")), "did you mean `face_width_mm`?");
-        assert_eq!(advice((tables, None), "teeth", &of("pair")), "`teeth` belongs to [pinion]");
-        assert_eq!(advice((tables, None), "torque", &of("operation")), "did you mean `torque_nm`?");
-        assert_eq!(advice((tables, None), "keeps", &of("pair")), "`keeps` belongs to [[pinion.shaft.discs]]");
+        assert_eq!(advice((tables, None), ("face_widht_mm", false), &of("pair")), "did you mean `face_width_mm`?");
+        assert_eq!(advice((tables, None), ("teeth", false), &of("pair")), "`teeth` belongs to [pinion]");
+        assert_eq!(advice((tables, None), ("torque", false), &of("operation")), "did you mean `torque_nm`?");
+        assert_eq!(advice((tables, None), ("keeps", false), &of("pair")), "`keeps` belongs to [[pinion.shaft.discs]]");
         for word in ["module", "module_mm", "m_n", "m", "modul"] {
-            assert_eq!(advice((tables, None), word, &of("pair")), "did you mean `normal_module_mm`?", "{word}");
+            assert_eq!(advice((tables, None), (word, false), &of("pair")), "did you mean `normal_module_mm`?", "{word}");
         }
         for word in ["module", "module_mm", "m_n"] {
-            assert_eq!(advice((tables, None), word, &of("")), "did you mean `normal_module_mm` in [pair]?", "{word}");
+            assert_eq!(advice((tables, None), (word, false), &of("")), "did you mean `normal_module_mm` in [pair]?", "{word}");
         }
-        assert_eq!(advice((tables, None), "rpm", &of("operation")), "did you mean `speed_rpm`?");
+        assert_eq!(advice((tables, None), ("rpm", false), &of("operation")), "did you mean `speed_rpm`?");
         let beside =
             (tables as crate::keys::Tables, Some(("a gearbox file", crate::gearbox::tables as crate::keys::Tables)));
-        assert_eq!(advice(beside, "steps_per_cycle", &of("motion")), "did you mean `steps_per_mesh_cycle`?");
-        let known = advice(beside, "key_deg", &of("pinion"));
+        assert_eq!(advice(beside, ("steps_per_cycle", false), &of("motion")), "did you mean `steps_per_mesh_cycle`?");
+        let known = advice(beside, ("key_deg", false), &of("pinion"));
         assert!(known.starts_with("`key_deg` belongs to [[gear]] of a gearbox file; known here: "), "{known}");
         let long = "a".repeat(1 << 24);
-        assert!(advice((tables, None), &long, &of("pair")).starts_with("known here"));
-        assert!(advice((tables, None), "colour", &["poisson"]).starts_with("known here"));
+        assert!(advice((tables, None), (&long, false), &of("pair")).starts_with("known here"));
+        assert!(advice((tables, None), ("colour", false), &["poisson"]).starts_with("known here"));
     }
 
     /// The mesher's own defaults are those of the table.
