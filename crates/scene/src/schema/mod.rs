@@ -247,10 +247,18 @@ mod tests {
         assert_eq!(advice((tables, None), ("torque", false), &of("operation")), "did you mean `torque_nm`?");
         assert_eq!(advice((tables, None), ("keeps", false), &of("pair")), "`keeps` belongs to [[pinion.shaft.discs]]");
         for word in ["module", "module_mm", "m_n", "m", "modul"] {
-            assert_eq!(advice((tables, None), (word, false), &of("pair")), "did you mean `normal_module_mm`?", "{word}");
+            assert_eq!(
+                advice((tables, None), (word, false), &of("pair")),
+                "did you mean `normal_module_mm`?",
+                "{word}"
+            );
         }
         for word in ["module", "module_mm", "m_n"] {
-            assert_eq!(advice((tables, None), (word, false), &of("")), "did you mean `normal_module_mm` in [pair]?", "{word}");
+            assert_eq!(
+                advice((tables, None), (word, false), &of("")),
+                "did you mean `normal_module_mm` in [pair]?",
+                "{word}"
+            );
         }
         assert_eq!(advice((tables, None), ("rpm", false), &of("operation")), "did you mean `speed_rpm`?");
         let beside =
