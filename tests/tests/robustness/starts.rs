@@ -40,7 +40,7 @@ fn a_load_below_round_off_is_named() {
         assert_eq!(output.status.code(), Some(1), "{torque} N m: {said}");
         let wanted = match written {
             false => ["N on the flanks is too light: round-off of places", "\nhint: give a larger torque"],
-            true => ["check failed: round_off_share", "is the torque in N m"],
+            true => ["check failed: round_off_share", "is the torque in N·m"],
         };
         assert!(wanted.iter().all(|words| said.contains(words)), "{torque} N m: {said}");
     }

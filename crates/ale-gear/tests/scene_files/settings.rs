@@ -84,7 +84,7 @@ fn complaints_name_the_setting() {
         ),
         (
             "a b=3",
-            "--set a b: unknown key `a b`|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
+            "--set a b: unknown key `a b`; a name with blanks or commas stands in quotes, as `bearing.\"fast, loose\".position_mm`, or is given by its number, as `bearing.1.position_mm`|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
         ),
     ] {
         assert_eq!(said(&[word]), text);

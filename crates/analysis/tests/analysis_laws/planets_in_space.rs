@@ -8,8 +8,10 @@ use scene::gearbox::Gearbox;
 
 use crate::planets::{POSITIONS, STAGE, Stage};
 
-/// Torque of the sun, N m.
-const SUN: f64 = 200.0;
+/// Torque of the sun, N m: the stage lags by the backlash and by what gives way, and ratios hold to the square of that angle.
+const SUN: f64 = 2.0;
+/// Thinning of the teeth, mm: as little.
+const THIN: &str = "thickness_allowance_mm = 0.0005\n";
 /// Most that torques may be off their ratios.
 const EXACT: f64 = 1e-8;
 
@@ -17,9 +19,9 @@ const EXACT: f64 = 1e-8;
 fn with_carrier(stage: Stage, [input, output, fixed]: [&str; 3]) -> GearboxResult {
     let teeth = stage.teeth.map(|z| f64::from(z.abs()));
     let torque = |name: &str| SUN * of_member(name, [1.0, teeth[2] / teeth[0], 1.0 + teeth[2] / teeth[0]]);
-    // A member that gives way turns the frame of the planets: ratios hold to the square of that angle.
     let turn = "turn_stiffness_nm_per_rad = 1e8\n";
-    let text = stage.text();
+    let text = stage.text().replace("thickness_allowance_mm = 0.1\n", THIN);
+    assert!(text.contains(THIN), "{text}");
     let end = text.find("[input]").unwrap();
     let mut text = text[..end].replacen(
         "shaft = \"planet\"\nposition_mm",

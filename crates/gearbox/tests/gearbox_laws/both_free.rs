@@ -209,7 +209,7 @@ fn one_speed_without_an_answer_leaves_the_others_alone() {
         misses.iter().map(|m| (m.way, m.speed)).collect::<Vec<_>>(),
         [(SweepDirection::Up, 0.0), (SweepDirection::Down, 0.0), (SweepDirection::Independent, 0.0)]
     );
-    assert!(misses.iter().all(|m| m.error.to_string().contains("stands still")), "{misses:?}");
+    assert!(misses.iter().all(|m| m.error.to_string().contains("rotation stops")), "{misses:?}");
     let solved: Vec<_> = all.into_iter().filter_map(Result::ok).collect();
     assert!(solved == good, "a speed without an answer changed the others");
     let started: Vec<bool> = solved.iter().map(|p| p.own_start).collect();
