@@ -204,7 +204,7 @@ mod tests {
             Bound::new(Quantity::MaxPairForce, value, vec![Term { cause: Cause::Mesh, known: 0.0, amount }])
         };
         assert_eq!(of(2485.0123, 17.77).words(), "2485 +-18 N");
-        assert_eq!(of(2485.0123, 1.7e-12).words(), "2485.01 +-1.7e-12 N");
+        assert_eq!(of(2485.0123, 1.7e-9).words(), "2485.01 +-1.7e-9 N");
         assert_eq!(of(2485.0123, 0.0).words(), "2485.01 +-0.0e0 N");
         let asked = |share| of(2485.0123, 17.77).against(Some(Tolerance::Relative(share))).asked_words();
         assert_eq!([asked(1.0 / 3.0), asked(1e-6), asked(1e-12)], ["828 N", "0.00249 N", "2.49e-9 N"]);
