@@ -30,7 +30,7 @@ use fem::{BoundaryLastFactor, ElementOptions, Material, Wanted, dense, unless_un
 use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
-pub(crate) use blocks::ToothBlocks;
+pub(crate) use blocks::{ToothBlocks, turned};
 use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use sector::Sector;
@@ -126,6 +126,44 @@ impl CyclicGear {
             places: self.coordinates.iter().map(place).collect(),
             angles: (0..self.count).map(|j| self.angle(self.first + j)).collect(),
         }
+    }
+
+    /// B_d of all distances d (below z, in sectors) between the teeth of pairs of windows that are turned by these pitches
+    /// against the one of the coordinates.
+    pub(crate) fn blocks_between(&self, shifts: impl Iterator<Item = [u32; 2]>) -> BTreeMap<u32, Mat<f64>> {
+        let of_pair = |[a, b]: [u32; 2]| self.loaded().flat_map(move |p| self.loaded().map(move |q| [p + a, q + b]));
+        let distances = shifts.flat_map(of_pair).map(|[p, q]| self.apart(q, p));
+        let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
+        let ends = self.ends_about(unit.as_ref(), distances);
+        let block = |(d, ends): (u32, Mat<f64>)| {
+            let through = dense::product(self.sector.transfer.transpose(), ends.as_ref());
+            (d, if d == 0 { through + &self.sector.own } else { through })
+        };
+        ends.into_iter().map(block).collect()
+    }
+
+    /// Displacements (mm) of the coordinates of a window that is turned by so many pitches under unit forces (N) on those of
+    /// another one, each in its own frame, out of [`CyclicGear::blocks_between`].
+    pub(crate) fn between(&self, [a, b]: [u32; 2], blocks: &BTreeMap<u32, Mat<f64>>) -> Mat<f64> {
+        let n = 3 * self.coordinates.len();
+        let mut all = Mat::<f64>::zeros(n, n);
+        let of_copy = |copy: u32| {
+            let own = self.coordinates.iter().enumerate().filter(move |(_, place)| place.0 == copy);
+            own.map(|(i, place)| (i, place.1))
+        };
+        for (p, q) in self.loaded().flat_map(|p| self.loaded().map(move |q| (p, q))) {
+            let Some(block) = blocks.get(&self.apart(q + b, p + a)) else { continue };
+            let block = turned(block, [self.angle(p), self.angle(q)]);
+            for ((i, at), (j, load)) in of_copy(p).flat_map(|x| of_copy(q).map(move |y| (x, y))) {
+                all.as_mut().submatrix_mut(3 * i, 3 * j, 3, 3).copy_from(block.as_ref().submatrix(
+                    3 * at,
+                    3 * load,
+                    3,
+                    3,
+                ));
+            }
+        }
+        all
     }
 
     /// B_d, d = 0 .. w - 1: displacements under the loads of the d-th sector on, in its frame, by unit loads on one in
