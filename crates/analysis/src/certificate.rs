@@ -83,7 +83,7 @@ pub const CHECKS: [CheckKind; 33] = [
         "energy_residual",
         "1e-2",
         "motions of pairs and gearboxes; each speed of a sweep",
-        "energy that steps add or take by themselves, over the kinetic and elastic energy that comes and goes in them: `energy_open_over_vibration`",
+        "energy that steps add or take by themselves, over the kinetic and elastic energy that comes and goes in them: `energy_open_over_vibration`; of gearboxes the bound is 1e-3",
     ),
     kind(
         "map_error",

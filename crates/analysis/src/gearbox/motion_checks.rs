@@ -7,6 +7,8 @@ use scene::gearbox::MeshModel;
 use super::motion_remarks::Judged;
 use crate::in_motion::{energy_check, map_checks, map_excess};
 
+/// Energy that steps may add or take by themselves, over that of the vibration: a tenth of what a pair may have.
+const ENERGY: f64 = 1e-3;
 /// Error of the natural frequencies of reduced shafts.
 const FREQUENCIES: f64 = 0.03;
 const FREQUENCIES_HINT: &str = "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept";
@@ -64,7 +66,8 @@ pub(super) fn of_branch(meshes: impl Iterator<Item = Contact>, reduction: &Reduc
 impl Judged<'_> {
     /// Energy, what each mesh is held to, its map or spring, frequencies of the reduced shafts.
     pub fn checks(&self) -> Checks {
-        let energy = energy_check(self.moved.energy.open_over_vibration, self.step_keys());
+        let open = energy_check(self.moved.energy.open_over_vibration, self.step_keys());
+        let energy = Check { bound: ENERGY, ..open };
         let meshes = (0..self.rest.meshes.len()).flat_map(|i| {
             let contact = Contact {
                 model: self.asked.mesh,

@@ -10,8 +10,8 @@ use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
 use super::{at_rest::AtRest, moved::GearboxMotionResult, swings::few_modes};
 use crate::{
     in_motion::{
-        MeshInMotion, MeshRecord, Parting, Resolved, Settled, StepKeys, coarse_steps, energy_remark, no_backlash,
-        speed_changed, steps_of_cycle, work_open,
+        MeshInMotion, MeshRecord, Parting, Resolved, Settled, StepKeys, coarse_steps, no_backlash, speed_changed,
+        steps_of_cycle, work_open,
     },
     motion::{Elasticity, Pace, StepDemand, Vibration},
     remark,
@@ -61,7 +61,6 @@ impl Judged<'_> {
         let Self { rest, asked, moved, .. } = *self;
         let mut said: Vec<Remark> =
             self.settled().into_iter().chain(work_open(moved.ledger_residual_over_work)).collect();
-        said.extend(energy_remark(moved.energy.open_over_vibration, self.step_keys()));
         if asked.drive == GearboxDrive::Torque {
             said.extend(speed_changed(moved.reached.mean_input_speed * 60.0 / TAU, asked.speed_rpm));
         }

@@ -11,7 +11,7 @@ use crate::{
     remark,
 };
 
-/// Energy that an integrator may add or take, over that of the vibration, of pairs and gearboxes: in a free vibration a share
+/// Energy that an integrator may add or take, over that of the vibration, of a pair: in a free vibration a share
 /// s is a damping ratio of 2 s / pi by the steps alone, here 0.6 %, an eighth of what a mesh has by default.
 const ENERGY: f64 = 1e-2;
 /// The same from which on a user should hear of it.

@@ -107,7 +107,9 @@ fn any_member_is_input_output_or_fixed() {
         let [_, balance] = found.certificate;
         println!("{roles:?}: torques off by {off:.1e}, bodies by {balance:.1e}");
         assert!(off < EXACT && balance < EXACT, "{roles:?}: {off:e}, {balance:e}");
-        // Where teeth touch without load is a matter of keys; a heavier load lags more.
+        let even = with_carrier(STAGE, SUN, roles).outputs[0];
+        assert!(even.mean > 0.0 && even.peak_to_peak > 0.0, "{roles:?}: without a pin error {even:?}");
+        // Of a pin that is off, the lag without load is that of the gap on the side that carries; a heavier load lags more.
         let heavier = with_carrier(Stage { pin: 5.0, ..STAGE }, 2.0 * SUN, roles);
         let [less, more] = [&found, &heavier].map(|own| own.outputs[0].mean);
         println!("{roles:?}: the output lags {less:.3e} rad, {more:.3e} rad under twice the load");
