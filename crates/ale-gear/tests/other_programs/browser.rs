@@ -81,7 +81,15 @@ addEventListener("load", async () => {
     await new Promise(done => { drawn.onload = done; drawn.src = picture; });
     seen.stills.push(drawn.src.startsWith("data:image/png;base64,") ? marks(drawn).different : 0);
   }
-  seen.wide = document.documentElement.scrollWidth > innerWidth;
+  // Other machines have wider letters: the page must bear them too. What stands out of the window is named.
+  seen.wide = ["", ".05em"].flatMap(spacing => {
+    document.body.style.letterSpacing = spacing;
+    if (document.documentElement.scrollWidth <= innerWidth) return [];
+    const out = [...document.querySelectorAll("body *")].filter(e => e.getBoundingClientRect().right > innerWidth && !e.closest(".scroll, .section, .live"));
+    const names = out.slice(0, 8).map(e => `<${e.localName} class="${e.className}"> ${e.textContent.slice(0, 60)}`);
+    return [`${document.documentElement.scrollWidth} pixels, letters apart by "${spacing}"`, ...names];
+  });
+  document.body.style.letterSpacing = "";
   const answer = document.createElement("pre");
   answer.hidden = true;
   answer.textContent = "SEEN" + JSON.stringify(seen) + "END";
@@ -151,7 +159,7 @@ fn check_charts(seen: &Value, name: &str) {
     assert_eq!(seen["links"][0], seen["links"][1], "{name}: every chart can be saved as PNG: {seen}");
     let stills = seen["stills"].as_array().unwrap();
     assert!(!stills.is_empty() && stills.iter().all(|s| s.as_u64() > Some(500)), "{name}: empty pictures: {stills:?}");
-    assert_eq!(seen["wide"], Value::Bool(false), "{name}: the page is wider than the window");
+    assert_eq!(seen["wide"], serde_json::json!([]), "{name}: wider than the window");
     assert_eq!(seen["marks"], serde_json::json!([]), "{name}: marks of axes that do not stand where they say");
 }
 
