@@ -204,6 +204,7 @@ impl Node {
             },
             Value::List(list) => match entry_of(list, first) {
                 Some(i) => list[i].put(rest, value),
+                None if first.parse() == Ok(list.len()) => list.push(value.below(rest)),
                 None => *self = value.below(path),
             },
             _ => *self = value.below(path),
@@ -214,6 +215,10 @@ impl Node {
     fn below(self, path: &[String]) -> Self {
         path.iter().rev().fold(self, |node, key| {
             let span = node.span.clone();
+            if key == "0" {
+                // The first entry of a list that is not there yet.
+                return Self { span, value: Value::List(vec![node]) };
+            }
             let entry = Entry { key: span.clone(), node };
             Self { span, value: Value::Table(BTreeMap::from([(key.clone(), entry)])) }
         })

@@ -149,6 +149,11 @@ fn spaced(value: f64, unit: &str) -> String {
     if unit.is_empty() { text } else { format!("{text} {unit}") }
 }
 
+/// A number of a message: four digits, as people write it.
+pub fn shown(value: f64) -> String {
+    plain(short(value))
+}
+
 /// A number as people write it: without an exponent unless it would be long.
 pub fn plain(value: f64) -> String {
     if value != 0.0 && !(1e-4..1e7).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }

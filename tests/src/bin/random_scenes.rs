@@ -1,8 +1,9 @@
 //! Random scenes over the whole documented range: every one is solved, or refused for a reason that is true.
 //!
-//! `cargo run --profile test -p verification --bin random_scenes -- SEED FROM TO out.jsonl` runs scenes FROM .. TO of a
-//! seed, appends a line of JSON for each; those that are in the file already are left out. The table is of all of them.
-//! `... --bin random_scenes -- show SEED INDEX DIR` writes one scene with its files into a folder.
+//! `cargo run --profile test -p verification --bin random_scenes -- KIND SEED FROM TO out.jsonl` runs documents
+//! FROM .. TO of a seed, `pairs`, `gearboxes` or `plans`, and appends a line of JSON for each; those that are in the file
+//! already are left out. The table is of all of them. `... --bin random_scenes -- show KIND SEED INDEX DIR` writes one
+//! with its files into a folder.
 #![allow(clippy::print_stdout, reason = "the table is what it is for")]
 
 use std::{
@@ -16,7 +17,7 @@ use std::{
 
 use verification::{
     program::as_command,
-    random_scenes::{Limits, Refusals, Tally, draw, try_scene},
+    random_scenes::{Limits, Refusals, Tally, drawer, try_scene},
 };
 
 fn main() -> ExitCode {
@@ -26,9 +27,9 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words[..] {
-        ["show", seed, index, folder] => show(seed, index, folder).map(|()| 0),
-        [seed, from, to, out] => run(seed, from, to, out),
-        _ => Err("SEED FROM TO OUT.jsonl are wanted".into()),
+        ["show", kind, seed, index, folder] => show(kind, seed, index, folder).map(|()| 0),
+        [kind, seed, from, to, out] => run(kind, seed, from, to, out),
+        _ => Err("KIND SEED FROM TO OUT.jsonl are wanted".into()),
     };
     match done {
         Ok(0) => ExitCode::SUCCESS,
@@ -41,7 +42,8 @@ fn main() -> ExitCode {
 }
 
 /// Runs scenes; gives how many of them show a fault of the program.
-fn run(seed: &str, from: &str, to: &str, out: &str) -> Result<usize, Box<dyn Error>> {
+fn run(kind: &str, seed: &str, from: &str, to: &str, out: &str) -> Result<usize, Box<dyn Error>> {
+    let draw = drawer(kind)?;
     let (seed, from, to): (u64, u64, u64) = (seed.parse()?, from.parse()?, to.parse()?);
     let before = before(Path::new(out))?;
     let done: BTreeSet<u64> = before.iter().filter_map(|line| line["index"].as_u64()).collect();
@@ -70,8 +72,8 @@ fn before(out: &Path) -> Result<Vec<serde_json::Value>, Box<dyn Error>> {
     Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
 }
 
-fn show(seed: &str, index: &str, folder: &str) -> Result<(), Box<dyn Error>> {
-    let scene = draw(seed.parse()?, index.parse()?);
+fn show(kind: &str, seed: &str, index: &str, folder: &str) -> Result<(), Box<dyn Error>> {
+    let scene = drawer(kind)?(seed.parse()?, index.parse()?);
     let folder = PathBuf::from(folder);
     fs::create_dir_all(&folder)?;
     fs::write(folder.join("scene.toml"), scene.draft.text()?)?;

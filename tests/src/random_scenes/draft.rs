@@ -51,12 +51,64 @@ impl Draft {
             None => drop(self.table.remove(key)),
             Some((table, last)) => {
                 let mut at = Some(&mut self.table);
-                for part in table.split('.') {
-                    at = at.and_then(|t| t.get_mut(part)).and_then(Value::as_table_mut);
+                let mut parts = table.split('.').peekable();
+                while let Some(part) = parts.next() {
+                    let inner = at.and_then(|t| t.get_mut(part));
+                    at = match (inner, parts.peek().and_then(|number| number.parse::<usize>().ok())) {
+                        (Some(Value::Array(list)), Some(number)) => {
+                            parts.next();
+                            list.get_mut(number).and_then(Value::as_table_mut)
+                        }
+                        (inner, _) => inner.and_then(Value::as_table_mut),
+                    };
                 }
                 at.map(|t| t.remove(last));
             }
         }
+    }
+
+    /// Takes all keys of a table over.
+    pub fn put_all(&mut self, table: Table) {
+        self.table = table;
+    }
+
+    /// The key with every first entry of a list of tables replaced by any of those that are there, or the one after.
+    pub fn at_some_entry(&mut self, key: &str) -> String {
+        let mut found = String::new();
+        for part in key.split('.') {
+            let part = if part == "0" {
+                let there = self.get(&found).and_then(Value::as_array).map_or(0, Vec::len) as u32;
+                // Rarely one more.
+                let last = if self.chance(0.1) { there } else { there.saturating_sub(1) };
+                self.whole(0, last).to_string()
+            } else {
+                part.to_owned()
+            };
+            found = if found.is_empty() { part } else { format!("{found}.{part}") };
+        }
+        found
+    }
+
+    /// The name of any entry of a list of tables.
+    pub fn name_of(&mut self, list: &str) -> Option<Value> {
+        let names: Vec<Value> =
+            self.get(list)?.as_array()?.iter().filter_map(|entry| entry.get("name").cloned()).collect();
+        let at = self.whole(0, names.len().checked_sub(1)? as u32) as usize;
+        names.get(at).cloned()
+    }
+
+    /// Whole paths of all keys that are set, the entries of lists of tables counted.
+    pub fn paths(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        paths("", &self.table, &mut all);
+        all
+    }
+
+    /// All numbers behind keys whose last part is this one.
+    pub fn numbers(&self, last: &str) -> Vec<f64> {
+        let mut all = Vec::new();
+        numbers(&self.table, last, &mut all);
+        all
     }
 
     /// Whether something of this share happens.
@@ -127,6 +179,42 @@ impl Draft {
         let mut all = Vec::new();
         walk("", &self.table, &mut all);
         all
+    }
+}
+
+fn paths(path: &str, table: &Table, all: &mut Vec<String>) {
+    for (key, value) in table {
+        let key = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        match value {
+            Value::Table(inner) => paths(&key, inner, all),
+            Value::Array(list) if list.iter().any(Value::is_table) => {
+                for (number, inner) in list.iter().filter_map(Value::as_table).enumerate() {
+                    paths(&format!("{key}.{number}"), inner, all);
+                }
+            }
+            _ => all.push(key),
+        }
+    }
+}
+
+fn numbers(table: &Table, last: &str, all: &mut Vec<f64>) {
+    for (key, value) in table {
+        if key == last {
+            of_value(value, all);
+        }
+        match value {
+            Value::Table(inner) => numbers(inner, last, all),
+            Value::Array(list) => list.iter().filter_map(Value::as_table).for_each(|inner| numbers(inner, last, all)),
+            _ => {}
+        }
+    }
+}
+
+/// The number that a value is, or all numbers of a list of them.
+fn of_value(value: &Value, all: &mut Vec<f64>) {
+    match value {
+        Value::Array(list) => list.iter().for_each(|inner| of_value(inner, all)),
+        other => all.extend(other.as_float().or(other.as_integer().map(|i| i as f64))),
     }
 }
 

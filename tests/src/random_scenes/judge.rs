@@ -15,7 +15,12 @@ const TABLES: [&str; 5] = ["resonance.csv", "sweep.csv", "branch.csv", "basins.c
 
 /// Figures of a headline that have no value in some results: not asked for, of another model, or where nothing is to be
 /// measured (`docs/outputs.md`).
-const MAY_BE_NULL: [&str; 29] = [
+const MAY_BE_NULL: [&str; 34] = [
+    ".least_scuffing_safety",
+    ".mesh_loss_w",
+    ".median_95",
+    ".quantile_10_95",
+    ".quantile_90_95",
     ".attractors.period_cycles",
     ".certificate.lyapunov",
     ".difference_in_time",
@@ -91,6 +96,17 @@ pub fn judge(folder: &Path) -> Judged {
         }
     }
     judged.wrong.extend(headline(&summary));
+    match summary["kind"].as_str() {
+        Some("plan") => {
+            judged.wrong.extend(cases(folder, &summary));
+            return judged;
+        }
+        Some("gearbox") if folder.join("positions.csv").exists() => {
+            judged.wrong.extend(gearbox(folder, &summary));
+            return judged;
+        }
+        _ => {}
+    }
     let Ok(history) = Csv::read(&folder.join("history.csv")) else {
         if !TABLES.iter().any(|name| folder.join(name).exists()) {
             judged.wrong.push("there is neither history.csv nor rows of a sweep, a branch or basins".into());
@@ -111,6 +127,66 @@ pub fn judge(folder: &Path) -> Judged {
         judged.wrong.push("energy.csv is not there".into());
     }
     judged
+}
+
+/// Forces of bearings that hold shafts of a gearbox in its housing sum to zero, over the largest.
+const BALANCE: f64 = 1e-6;
+
+/// Positions of a gearbox are numbers, and the forces of the bearings balance each other where nothing else holds it.
+fn gearbox(folder: &Path, summary: &Json) -> Vec<String> {
+    let Ok(positions) = Csv::read(&folder.join("positions.csv")) else {
+        return vec!["positions.csv cannot be read".into()];
+    };
+    let mut wrong = Vec::new();
+    for name in &positions.names {
+        let Some(column) = positions.column(name) else { continue };
+        if let Some(row) = column.iter().position(|value| !value.is_finite()) {
+            wrong.push(format!("positions.csv: {name} is {} in row {row}", column[row]));
+        }
+    }
+    // Planets turn with their carrier: their bearings stand on shafts, and columns are in the carrier's frame.
+    let has_planets = summary["planets"].as_array().is_some_and(|planets| !planets.is_empty());
+    let holds = |name: &Json| name.as_str().is_some_and(|name| !name.contains(" in "));
+    let bearings = summary["bearings"].as_array().map_or(&[][..], Vec::as_slice);
+    if has_planets || !bearings.iter().all(|bearing| holds(&bearing["name"])) {
+        return wrong;
+    }
+    let forces: Vec<Vec<[f64; 3]>> =
+        (1..).map_while(|bearing| positions.vectors(&format!("bearing_{bearing}_force"), "n")).collect();
+    if forces.len() < bearings.len() {
+        wrong.push(format!("positions.csv: forces of {} bearings, there are {}", forces.len(), bearings.len()));
+    }
+    for row in 0..positions.rows.len() {
+        let sum = [0, 1, 2].map(|i| forces.iter().map(|force| force[row][i]).sum::<f64>());
+        let largest = forces.iter().flat_map(|force| force[row]).fold(0.0f64, |most, f| most.max(f.abs()));
+        if sum.iter().any(|s| s.abs() > BALANCE * largest) {
+            wrong.push(format!(
+                "positions.csv, row {row}: forces of the bearings sum to {sum:?} N, the largest is {largest}"
+            ));
+            break;
+        }
+    }
+    wrong
+}
+
+/// A case has all its numbers or a reason why not, and the headline counts them.
+fn cases(folder: &Path, summary: &Json) -> Vec<String> {
+    let Ok(cases) = Csv::read(&folder.join("cases.csv")) else { return vec!["cases.csv cannot be read".into()] };
+    let mut wrong = swept(folder, "cases.csv");
+    let at = |name: &str| cases.names.iter().position(|n| n == name);
+    let (Some(status), Some(reason)) = (at("status"), at("reason")) else {
+        return vec!["cases.csv has no status or no reason".into()];
+    };
+    let failed = cases.rows.iter().filter(|row| row[status] == "failed");
+    if let Some(row) = failed.clone().find(|row| row.get(reason).is_none_or(String::is_empty)) {
+        wrong.push(format!("case {} failed, and nobody says why", row[0]));
+    }
+    for (key, count) in [("cases", cases.rows.len()), ("failed", failed.count())] {
+        if summary["headline"][key].as_u64() != Some(count as u64) {
+            wrong.push(format!("headline: {key} is {}, in cases.csv {count}", summary["headline"][key]));
+        }
+    }
+    wrong
 }
 
 /// As many rows as were asked for, in the order of time.

@@ -10,6 +10,7 @@
 //! | `model`, `question` | which model; load, contact, positions, files |
 //! | `rating` | whether it will hold |
 //! | `motion`, `cheaper` | motion in time; the models with few coordinates |
+//! | `machines`, `plans` | gearboxes; plans over a random pair |
 //! | `whole_range` | any key of the schema over its whole range |
 //! | `laws` | laws that no model may break: the same scene told in another way |
 //! | `mirror`, `size`, `exchange`, `driver`, `lead` | one of them each |
@@ -34,10 +35,12 @@ mod headline;
 mod judge;
 mod laws;
 mod lead;
+mod machines;
 mod meshes;
 mod mirror;
 mod model;
 mod motion;
+mod plans;
 mod question;
 mod rating;
 mod refusals;
@@ -51,6 +54,8 @@ mod whole_range;
 pub use attempt::{Attempt, Limits};
 pub use csv::Csv;
 pub use draft::Draft;
+pub use machines::draw_gearbox;
+pub use plans::draw_plan;
 pub use refusals::{Refusals, matches};
 pub use size::power;
 pub use trial::try_scene;
@@ -75,6 +80,21 @@ pub struct RandomScene {
     pub anything: bool,
     /// Whether its meshes come from files.
     pub foreign: bool,
+}
+
+/// Draws a document of a seed and a number.
+pub type Drawer = fn(u64, u64) -> RandomScene;
+
+/// Kinds of documents that are drawn, and how.
+pub const KINDS: [(&str, Drawer); 3] = [("pairs", draw), ("gearboxes", draw_gearbox), ("plans", draw_plan)];
+
+/// How documents of a kind are drawn.
+///
+/// # Errors
+/// For a word that is none of [`KINDS`].
+pub fn drawer(kind: &str) -> Result<Drawer, String> {
+    let found = KINDS.iter().find(|(name, _)| *name == kind).map(|(_, draw)| *draw);
+    found.ok_or_else(|| format!("`{kind}`: {} are drawn", KINDS.map(|(name, _)| name).join(", ")))
 }
 
 /// Scene number `index` of a seed.

@@ -44,7 +44,9 @@ impl Refusals {
         range_is_left(message, scene)?;
         something_is_free(message, scene)?;
         friction_is_high(message, scene)?;
-        let fits = |r: &&Reason| r.status == status && matches(&r.pattern, message);
+        // A plan none of whose documents is accepted has no result, for the reason of the first.
+        let of_plan = status == 1 && scene.get("vary").is_some();
+        let fits = |r: &&Reason| (r.status == status || of_plan) && matches(&r.pattern, message);
         match self.reason.iter().find(fits) {
             Some(reason) => Ok(reason.pattern.clone()),
             None => Err(format!("unexplained, status {status}: {message}")),
@@ -76,9 +78,8 @@ fn range_is_left(message: &str, scene: &Draft) -> Result<(), String> {
     let (Ok(low), Ok(high)) = (low.parse::<f64>(), high.parse::<f64>()) else {
         return Err(format!("a range that is none: {message}"));
     };
-    let of_key = scene.keys().into_iter().filter(|k| k.rsplit('.').next() == Some(key));
     let is_shown = |n: &f64| (n - value).abs() <= SHOWN * value.abs();
-    match of_key.filter_map(|k| scene.number(&k)).find(is_shown) {
+    match scene.numbers(key).into_iter().find(is_shown) {
         None => Err(format!("the scene has no such value: {message}")),
         Some(own) if (low..=high).contains(&own) => Err(format!("refused, though it is within the range: {message}")),
         Some(_) => Ok(()),

@@ -2,10 +2,13 @@
 
 use std::{fs, io, path::Path};
 
-use super::{Draft, Limits, RandomScene, Refusals, Verdict, attempt::run, judge, laws::law_of};
+use super::{Csv, Draft, Limits, RandomScene, Refusals, Verdict, attempt::run, judge, laws::law_of};
 
 /// One scene in so many is held against a law.
 const HELD: u64 = 3;
+
+/// Share by which a number of a case may differ from that of its document alone: cases share windows.
+const SAME: f64 = 1e-7;
 
 /// In the message of a number that is not in its range.
 const OUT_OF_RANGE: &str = ", allowed is ";
@@ -48,6 +51,9 @@ pub fn try_scene(
         let judged = judge::judge(&folder.join("o"));
         verdict.remarks = judged.remarks;
         verdict.wrong.extend(judged.wrong);
+        if scene.model == "plan" {
+            verdict.wrong.extend(same_case(program, folder, limits)?);
+        }
         if let (0, Some(0), Some((law, told))) = (index % HELD, attempt.status, law_of(index / HELD, scene)) {
             verdict.law = Some(law);
             let solve = |draft: &Draft, name: &str| {
@@ -70,4 +76,31 @@ pub fn try_scene(
         }
     }
     Ok(verdict)
+}
+
+/// The first solved case of a plan is the run of its document with the keys of that case: the same numbers.
+fn same_case(program: &Path, folder: &Path, limits: Limits) -> io::Result<Vec<String>> {
+    let Ok(cases) = Csv::read(&folder.join("o/cases.csv")) else { return Ok(Vec::new()) };
+    let at = |name: &str| cases.names.iter().position(|n| n == name);
+    let Some(status) = at("status") else { return Ok(Vec::new()) };
+    let Some(row) = cases.rows.iter().find(|row| row[status] == "solved") else { return Ok(Vec::new()) };
+    let keys = cases.names.iter().zip(row).filter(|(name, _)| name.contains('.') && !name.contains('('));
+    let set: Vec<String> = keys.map(|(name, value)| format!("{name}={value}")).collect();
+    let text = fs::read_to_string(folder.join("scene.toml"))?;
+    let mut table: toml::Table = text.parse().map_err(io::Error::other)?;
+    table.remove("vary");
+    fs::write(folder.join("case.toml"), toml::to_string(&table).map_err(io::Error::other)?)?;
+    let mut all = words("case.toml", "case").to_vec();
+    set.iter().for_each(|word| all.extend(["--set", word.as_str()]));
+    let alone = run(program, folder, &all, limits)?;
+    if !matches!(alone.status, Some(0 | 3)) {
+        return Ok(vec![format!("case {} is solved in the plan; alone: {}", row[0], alone.said.trim())]);
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("case/summary.json"))?)?;
+    let numbers = cases.names.iter().zip(row).filter_map(|(name, cell)| {
+        let (alone, planned) = (summary["headline"][name.as_str()].as_f64()?, cell.parse::<f64>().ok()?);
+        let differs = (alone - planned).abs() > SAME * alone.abs();
+        differs.then(|| format!("case {}: {name} is {planned} in the plan, {alone} alone", row[0]))
+    });
+    Ok(numbers.collect())
 }

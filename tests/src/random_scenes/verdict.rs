@@ -134,13 +134,25 @@ impl Verdict {
     }
 }
 
-/// The first line without the program's name and the place in the scene.
+/// The first line without the program's name and the place: in the document, in a mesh of it, of a key that is set, in the
+/// first case of a plan.
 fn message(said: &str) -> String {
-    let first = said.lines().find_map(|l| l.strip_prefix("ale-gear: ")).unwrap_or_default();
-    let Some(rest) = first.strip_prefix("scene.toml") else { return first.to_owned() };
-    let rest = rest.trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
-    rest.strip_prefix(' ').unwrap_or(rest).to_owned()
+    let mut rest = said.lines().find_map(|l| l.strip_prefix("ale-gear: ")).unwrap_or_default();
+    loop {
+        let shorter = PLACES.iter().find_map(|place| {
+            let after = rest.strip_prefix(place)?;
+            let end = if place.ends_with(": ") { 0 } else { after.find(": ")? + 2 };
+            Some(&after[end..])
+        });
+        match shorter {
+            Some(shorter) => rest = shorter,
+            None => return rest.to_owned(),
+        }
+    }
 }
+
+/// Beginnings of a message that say where: what follows up to a colon belongs to them.
+const PLACES: [&str; 4] = ["scene.toml", "--set ", "case.toml", "no case has a result; the first: "];
 
 /// How many of each model ended how.
 #[derive(Debug, Default)]

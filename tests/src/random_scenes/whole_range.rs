@@ -9,7 +9,21 @@ use super::Draft;
 
 /// Keys that only make a scene larger, with the largest number that is drawn: a hundred million mesh cycles are no
 /// small scene.
-const COSTLY: [(&str, f64); 22] = [
+const COSTLY: [(&str, f64); 36] = [
+    ("analysis.shaft_elements", 20.0),
+    ("motion.checkpoint_every_cycles", 2.0),
+    ("motion.continuation.harmonics", 16.0),
+    ("motion.continuation.most_harmonics", 32.0),
+    ("motion.continuation.motions", 12.0),
+    ("motion.continuation.periods", 2.0),
+    ("motion.continuation.phases", 256.0),
+    ("motion.continuation.time_points", 64.0),
+    ("motion.cycles", 6.0),
+    ("motion.steps_per_cycle", 200.0),
+    ("motion.steps_per_row", 4.0),
+    ("motion.waterfall_cycles", 64.0),
+    ("vibration.modes", 60.0),
+    ("vibration.speeds", 30.0),
     ("analysis.positions_per_cycle", 16.0),
     ("analysis.cycles", 6.0),
     ("contact.points_per_face_edge", 8.0),
@@ -34,7 +48,9 @@ const COSTLY: [(&str, f64); 22] = [
     ("mesher.sector_teeth", 30.0),
 ];
 /// Keys that a small number makes costly, with the smallest that is drawn: the slower, the more steps a mesh cycle.
-const SLOW: [(&str, f64); 4] = [
+const SLOW: [(&str, f64); 6] = [
+    ("motion.speed_rpm", 50.0),
+    ("motion.to_speed_rpm", 50.0),
     ("operation.speed_rpm", 50.0),
     ("motion.sweep.from_rpm", 50.0),
     ("motion.sweep.to_rpm", 50.0),
@@ -52,7 +68,7 @@ pub struct Key {
 }
 
 /// Tables of what is asked of a pair beside a run: no keys of the pair.
-const TASKS: [&str; 2] = ["vary", "optimise"];
+pub(super) const TASKS: [&str; 2] = ["vary", "optimise"];
 
 /// Every key of the scene file that is about the pair. The schema is made once: scenes are drawn by the thousand.
 pub fn keys_of_schema() -> &'static [Key] {
@@ -69,7 +85,7 @@ fn keys_of_pair() -> Vec<Key> {
     all
 }
 
-fn walk(path: &str, table: &Json, all: &mut Vec<Key>) {
+pub(super) fn walk(path: &str, table: &Json, all: &mut Vec<Key>) {
     for (key, row) in table["properties"].as_object().into_iter().flatten() {
         let name = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
         if row.get("properties").is_some() {
@@ -82,6 +98,16 @@ fn walk(path: &str, table: &Json, all: &mut Vec<Key>) {
     }
 }
 
+/// Keys of the pair that are numbers with both ends of a range.
+pub(super) fn keys_with_range() -> &'static [(String, [f64; 2])] {
+    static KEYS: LazyLock<Vec<(String, [f64; 2])>> = LazyLock::new(|| {
+        let of = |key: &Key| Some((key.name.clone(), [key.row["minimum"].as_f64()?, key.row["maximum"].as_f64()?]));
+        let costly = |name: &str| COSTLY.iter().chain(&SLOW).any(|(end, _)| name.ends_with(end));
+        keys_of_schema().iter().filter(|key| !costly(&key.name)).filter_map(of).collect()
+    });
+    &KEYS
+}
+
 /// Sets one key, any of them, to something within its range.
 pub fn draw_any_key(d: &mut Draft, keys: &[Key]) {
     let index = d.whole(0, keys.len() as u32 - 1) as usize;
@@ -91,7 +117,8 @@ pub fn draw_any_key(d: &mut Draft, keys: &[Key]) {
     }
 }
 
-fn value(d: &mut Draft, key: &Key) -> Option<Value> {
+/// Something within the range of a key; `None` where its kind is unknown.
+pub(super) fn value(d: &mut Draft, key: &Key) -> Option<Value> {
     let row = &key.row;
     let bound = |list: &[(&str, f64)]| list.iter().find(|(name, _)| key.name.ends_with(name)).map(|(_, most)| *most);
     let low = row["minimum"].as_f64().or(bound(&SLOW)).map(|l| l.max(bound(&SLOW).unwrap_or(l)));
@@ -125,6 +152,7 @@ fn text(d: &mut Draft, key: &str) -> Option<Value> {
         "mesh" => d.pick(&["meshes/periodic_hex8.msh", "meshes/sector3_tet4.msh", "meshes/README.md", "nowhere.msh"]),
         "topography" | "pitch_errors_file" => d.pick(&["nowhere.csv", "scene.toml"]),
         "flank_left" | "flank_right" => d.pick(&["{k}", "flank_left_{k}", "flank"]),
+        "file" | "spectrum" | "rexs" | "scene" => d.pick(&["nowhere.csv", "scene.toml", ""]),
         "bore" | "cut_0" | "cut_1" => d.pick(&["bore", "cut_0", "no such group"]),
         // What is left are the tolerances of [accuracy].
         _ => d.pick(&["1 %", "50 %", "0.05 um", "10 MPa", "1", "-3 %", "5 N/um"]),

@@ -3,38 +3,42 @@
 use std::{collections::BTreeSet, time::Instant};
 
 use scene::Scene;
-use verification::random_scenes::{Limits, Refusals, draw, keys_of_schema, power, try_scene};
+use verification::random_scenes::{KINDS, Limits, Refusals, draw, keys_of_schema, power, try_scene};
 
 use crate::program;
 
 /// The seed of the long runs: docs/robustness.md.
 const SEED: u64 = 2026;
-/// Scenes of the short form.
-const SCENES: u64 = 40;
+/// Documents of each kind in the short form, in the order of [`KINDS`].
+const DOCUMENTS: [u64; 3] = [40, 12, 12];
 /// Scenes are drawn, not run, until every key has been in one that fits together.
 const DRAWN: u64 = 20_000;
 
 #[test]
-fn every_scene_is_solved_or_refused_for_a_known_reason() {
+fn every_document_is_solved_or_refused_for_a_known_reason() {
     let refusals = Refusals::committed().unwrap();
     let (start, mut wrong) = (Instant::now(), Vec::new());
-    for index in 0..SCENES {
-        let folder = tempfile::tempdir().unwrap();
-        let scene = draw(SEED, index);
-        let verdict = try_scene(program(), folder.path(), index, &scene, (Limits::default(), &refusals)).unwrap();
-        wrong.extend(verdict.wrong.iter().map(|w| format!("scene {index} ({}): {w}", verdict.model)));
+    for ((kind, draw), count) in KINDS.iter().zip(DOCUMENTS) {
+        for index in 0..count {
+            let folder = tempfile::tempdir().unwrap();
+            let document = draw(SEED, index);
+            let tried = try_scene(program(), folder.path(), index, &document, (Limits::default(), &refusals)).unwrap();
+            wrong.extend(tried.wrong.iter().map(|w| format!("{kind} {index} ({}): {w}", tried.model)));
+        }
     }
     let seconds = start.elapsed().as_secs_f64();
-    assert!(wrong.is_empty(), "of {SCENES} scenes of seed {SEED}, {seconds:.0} s:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "of {DOCUMENTS:?} documents of seed {SEED}, {seconds:.0} s:\n{}", wrong.join("\n"));
 }
 
 /// A scene is its seed and its number: drawn twice it is the same text.
 #[test]
 fn a_scene_is_determined_by_seed_and_number() {
     for index in 0..50 {
-        let [a, b] = [(); 2].map(|()| draw(SEED, index).draft.text().unwrap());
-        assert_eq!(a, b, "scene {index}");
-        assert_ne!(a, draw(SEED + 1, index).draft.text().unwrap(), "scene {index} of another seed");
+        for (kind, draw) in KINDS {
+            let [a, b] = [(); 2].map(|()| draw(SEED, index).draft.text().unwrap());
+            assert_eq!(a, b, "{kind} {index}");
+            assert_ne!(a, draw(SEED + 1, index).draft.text().unwrap(), "{kind} {index} of another seed");
+        }
     }
 }
 

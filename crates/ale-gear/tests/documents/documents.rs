@@ -146,7 +146,7 @@ fn theory_and_docstrings_number_equations_alike() {
 }
 
 /// Pages that the program writes as a whole.
-const WRITTEN: [&str; 2] = ["docs/remarks.md", "docs/which_model.md"];
+const WRITTEN: [&str; 3] = ["docs/remarks.md", "docs/speed_and_accuracy.md", "docs/which_model.md"];
 
 /// Words of README and book at most, without the lists that tests write.
 const MOST_WORDS: usize = 45_000;

@@ -4,14 +4,11 @@ use std::fmt::Write;
 
 use analysis::motion::{MotionPrecision, MotionPrecisionPoint};
 use answer::Table;
-use plotters::prelude::*;
 use serde_json::json;
 
 use super::{Chart, ChartHeadline};
-use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+use crate::charts::{Captions, Labelled, log_panels};
 
-const SIZE: (u32, u32) = (1040, 470);
-const HEAD: u32 = 84;
 /// Errors below this are drawn on the axis, um: what contact itself is known to is no more.
 const LEAST_UM: f64 = 1e-6;
 /// Errors above this are of methods that do not hold, um.
@@ -19,18 +16,7 @@ const MOST_UM: f64 = 100.0;
 
 /// The chart as SVG: errors against steps and against wall time.
 fn motion_precision_svg(title: &str, of: &MotionPrecision) -> Result<String, String> {
-    let mut svg = String::new();
-    draw(&mut svg, title, of).map_err(|e| e.to_string())?;
-    Ok(svg)
-}
-
-fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failure> {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(HEAD);
     let methods = of.methods();
-    legend(&head, title, &methods)?;
-    let panels = body.split_evenly((1, 2));
     let curves = |x: fn(&MotionPrecisionPoint) -> f64, labelled: bool| -> Vec<Vec<Labelled>> {
         let of_method = |method: &&str| {
             let points = of.points.iter().filter(|p| p.method == *method);
@@ -45,16 +31,12 @@ fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failu
         methods.iter().map(of_method).collect()
     };
     let captions = |title, x| Captions { title, x, y: "largest error of DTE [um]" };
-    let by_steps = curves(|p| f64::from(p.steps), false);
-    log_panel(&panels[0], captions("Error against step", "steps a mesh cycle"), &by_steps)?;
-    let by_time = curves(|p| p.cycle_s, true);
-    log_panel(
-        &panels[1],
-        captions("Error against time (steps a mesh cycle)", "wall time of a mesh cycle [s]"),
-        &by_time,
-    )?;
-    root.present()?;
-    Ok(())
+    let by_time = captions("Error against time (steps a mesh cycle)", "wall time of a mesh cycle [s]");
+    let panels = [
+        (captions("Error against step", "steps a mesh cycle"), curves(|p| f64::from(p.steps), false)),
+        (by_time, curves(|p| p.cycle_s, true)),
+    ];
+    log_panels(title, &methods, &panels)
 }
 
 /// Every point; a method that does not come through has its reason in `note`.

@@ -4,14 +4,11 @@ use std::fmt::Write;
 
 use analysis::accuracy_chart::{ResonanceCurve, ResonancePoint, ResonancePrecision};
 use answer::Table;
-use plotters::prelude::*;
 use serde_json::json;
 
 use super::{Chart, ChartHeadline, tables::seconds};
-use crate::charts::{Captions, Curve, Failure, Labelled, legend, line_picture, log_panel};
+use crate::charts::{Captions, Curve, Labelled, line_picture, log_panels};
 
-const SIZE: (u32, u32) = (1040, 490);
-const HEAD: u32 = 104;
 /// Errors below this are drawn on the axis: the reference is known no better.
 const LEAST: f64 = 1e-5;
 /// Name of what the others are compared with.
@@ -26,18 +23,7 @@ fn models(of: &ResonancePrecision) -> Vec<&'static str> {
 
 /// The chart as SVG: errors against the wall time of all and of the motions alone.
 fn resonance_precision_svg(title: &str, of: &ResonancePrecision) -> Result<String, String> {
-    let mut svg = String::new();
-    draw(&mut svg, title, of).map_err(|e| e.to_string())?;
-    Ok(svg)
-}
-
-fn draw(svg: &mut String, title: &str, of: &ResonancePrecision) -> Result<(), Failure> {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(HEAD);
     let models = models(of);
-    legend(&head, title, &models)?;
-    let panels = body.split_evenly((1, 2));
     let curves = |time: fn(&ResonanceCurve) -> f64| -> Vec<Vec<Labelled>> {
         let of_model = |model: &&str| {
             let points = of.points.iter().filter(|p| p.model == *model);
@@ -54,13 +40,12 @@ fn draw(svg: &mut String, title: &str, of: &ResonancePrecision) -> Result<(), Fa
         };
         models.iter().map(of_model).collect()
     };
-    let captions = |title, x| Captions { title, x, y: "error of peak-to-peak DTE [%]" };
-    let all = curves(ResonanceCurve::whole_s);
-    log_panel(&panels[0], captions("Everything included (steps a mesh cycle)", "wall time [s]"), &all)?;
-    let motions = curves(|curve| curve.sweep_s);
-    log_panel(&panels[1], captions("Motions alone (steps a mesh cycle)", "wall time [s]"), &motions)?;
-    root.present()?;
-    Ok(())
+    let captions = |title| Captions { title, x: "wall time [s]", y: "error of peak-to-peak DTE [%]" };
+    let panels = [
+        (captions("Everything included (steps a mesh cycle)"), curves(ResonanceCurve::whole_s)),
+        (captions("Motions alone (steps a mesh cycle)"), curves(|curve| curve.sweep_s)),
+    ];
+    log_panels(title, &models, &panels)
 }
 
 /// The curves of every model with its shortest steps, and the reference, as SVG.

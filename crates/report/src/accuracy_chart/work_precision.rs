@@ -1,22 +1,16 @@
 //! The work-precision chart: errors against wall times, one panel a quantity and a kind of work; strokes are what the
 //! points say of their errors themselves.
 
-use plotters::prelude::*;
 use serde_json::json;
 use study::{AnswerError, Work};
 
 use super::{Chart, ChartHeadline, rows::rows, tables::chart_tables};
 use crate::{
-    charts::{Captions, Failure, Labelled, legend, log_panel},
+    charts::{Captions, Labelled, log_panels},
     page::counted,
 };
 use analysis::accuracy_chart::{Outcome, OwnBound, OwnBounds, WorkPrecision};
 
-const WIDTH: u32 = 1040;
-/// Height of a row of panels.
-const PANEL: i32 = 290;
-/// Height of title and legend.
-const HEAD: u32 = 136;
 /// Errors below this are drawn on the axis: round-off and luck are no accuracy.
 const LEAST: f64 = 1e-5;
 
@@ -45,9 +39,15 @@ const EFFORTS: [Effort; 2] = [
 
 /// The chart as SVG.
 fn work_precision_svg(title: &str, chart: &WorkPrecision) -> Result<String, String> {
-    let mut svg = String::new();
-    draw(&mut svg, title, chart).map_err(|e| e.to_string())?;
-    Ok(svg)
+    let names = series(chart);
+    let titles = QUANTITIES.map(|q| format!("Error of {}", q.name));
+    let panels = QUANTITIES.iter().zip(&titles).flat_map(|(q, title)| {
+        EFFORTS.iter().map(|e| {
+            let all = names.iter().map(|name| points(chart, name, q, e)).collect();
+            (Captions { title, x: e.name, y: "error [%]" }, all)
+        })
+    });
+    log_panels(title, &names, &panels.collect::<Vec<_>>())
 }
 
 /// Names of the ways that have a point, in the order of the table.
@@ -81,24 +81,6 @@ fn points(chart: &WorkPrecision, way: &str, q: &Quantity, e: &Effort) -> Vec<Lab
 /// The bound of an error on the side where it lies, relative.
 fn on_side_of(error: f64, own: OwnBound) -> f64 {
     if error < 0.0 { -own.least } else { own.most }
-}
-
-fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Failure> {
-    let height = HEAD + (PANEL as u32) * QUANTITIES.len() as u32;
-    let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(HEAD);
-    let names = series(chart);
-    legend(&head, title, &names)?;
-    let panels = body.split_evenly((QUANTITIES.len(), EFFORTS.len()));
-    for (i, panel) in panels.iter().enumerate() {
-        let (q, e) = (&QUANTITIES[i / EFFORTS.len()], &EFFORTS[i % EFFORTS.len()]);
-        let all: Vec<_> = names.iter().map(|n| points(chart, n, q, e)).collect();
-        let title = format!("Error of {}", q.name);
-        log_panel(panel, Captions { title: &title, x: e.name, y: "error [%]" }, &all)?;
-    }
-    root.present()?;
-    Ok(())
 }
 
 /// Every model of a pair: error against wall time.

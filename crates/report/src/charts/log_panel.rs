@@ -31,18 +31,61 @@ pub struct Captions<'a> {
     pub y: &'a str,
 }
 
+/// Names in a line of the legend.
+const COLUMNS: usize = 3;
+
 /// Names of the curves in their colours, three in a line.
 pub fn legend(area: &Drawing<'_>, title: &str, names: &[&str]) -> Result<(), Failure> {
     area.draw(&Text::new(title.to_owned(), (16, 10), ("sans-serif", 18)))?;
-    const COLUMNS: i32 = 3;
-    let width = area.dim_in_pixel().0 as i32;
+    let (width, columns) = (area.dim_in_pixel().0 as i32, COLUMNS as i32);
     for (k, name) in names.iter().enumerate() {
-        let (x, y) = (20 + (k as i32 % COLUMNS) * (width / COLUMNS), 44 + (k as i32 / COLUMNS) * 20);
+        let (x, y) = (20 + (k as i32 % columns) * (width / columns), 44 + (k as i32 / columns) * 20);
         let colour = COLOURS[k % COLOURS.len()];
         area.draw(&PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(2)))?;
         area.draw(&Circle::new((x + 12, y), 4, colour.filled()))?;
         area.draw(&Text::new((*name).to_owned(), (x + 32, y - 7), ("sans-serif", 14)))?;
     }
+    Ok(())
+}
+
+/// Width of a picture of panels, pixels.
+const WIDTH: u32 = 1040;
+/// Height of a row of panels, pixels.
+const ROW: u32 = 300;
+/// Height of the title and of a line of the legend, pixels.
+const HEAD: [u32; 2] = [44, 20];
+
+/// A picture of panels, two in a row, under one legend, as SVG: the points of every panel are given in the order of
+/// `names`, and those of a panel that lacks a name are none.
+///
+/// # Errors
+/// What drawing failed with, as text.
+pub fn log_panels(
+    title: &str,
+    names: &[&str],
+    panels: &[(Captions<'_>, Vec<Vec<Labelled>>)],
+) -> Result<String, String> {
+    let mut svg = String::new();
+    draw_panels(&mut svg, title, names, panels).map_err(|failure| failure.to_string())?;
+    Ok(svg)
+}
+
+fn draw_panels(
+    svg: &mut String,
+    title: &str,
+    names: &[&str],
+    panels: &[(Captions<'_>, Vec<Vec<Labelled>>)],
+) -> Result<(), Failure> {
+    let head = HEAD[0] + HEAD[1] * (names.len().div_ceil(COLUMNS) as u32);
+    let rows = panels.len().div_ceil(2);
+    let root = SVGBackend::with_string(svg, (WIDTH, head + ROW * rows as u32)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let (top, body) = root.split_vertically(head);
+    legend(&top, title, names)?;
+    for (area, (captions, points)) in body.split_evenly((rows, 2)).iter().zip(panels) {
+        log_panel(area, *captions, points)?;
+    }
+    root.present()?;
     Ok(())
 }
 

@@ -20,7 +20,7 @@ pub use curves::{
 };
 pub use field_map::{FieldMap, Side, share};
 pub use heat_map::{contact_pattern_figure, contact_pattern_maps, contact_pattern_svg};
-pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};
+pub use log_panel::{Captions, Failure, Labelled, legend, log_panel, log_panels};
 pub use overlay::{LevelLine, Mark, Overlay, Room, words};
 pub(crate) use picture::write_picture;
 pub use plot_data::{Plot, embedded};

@@ -8,7 +8,11 @@ use super::{
     schema::RawMesh,
     values::Checked,
 };
-use crate::{Source, gear_pair::data};
+use crate::{
+    Source,
+    gear_pair::data,
+    units::{plain, shown},
+};
 
 /// Difference that is round-off, relative.
 const ROUND: f64 = 1e-9;
@@ -52,7 +56,10 @@ pub(super) fn one_shape(
             };
             let differs = shape(before).into_iter().zip(shape(&now)).find(|(a, b)| unlike((a.1, b.1)));
             let Some(((key, one), (_, other))) = differs else { continue };
-            let told = |value: Option<f64>| value.map_or_else(|| "its default".to_owned(), |value| value.to_string());
+            // As few digits as tell both apart.
+            let few = one.map(shown) != other.map(shown);
+            let digits = if few { shown } else { plain };
+            let told = |value: Option<f64>| value.map_or_else(|| "its default".to_owned(), digits);
             let said = format!(
                 "gear \"{}\" has `{key}` {} in mesh \"{}\" and {} in mesh \"{}\"",
                 gears[gear].name,

@@ -8,7 +8,7 @@ use super::{
     shaft::length,
     values::Checked,
 };
-use crate::{Source, Word};
+use crate::{Source, Word, units::shown};
 
 /// Distance between two axes that is none: digits of a file, mm.
 const ONE_AXIS: f64 = 1e-9;
@@ -57,8 +57,12 @@ pub(super) fn seats(
         }
         let arm = (inner.origin[0] - outer.origin[0]).hypot(inner.origin[1] - outer.origin[1]);
         if arm > ONE_AXIS && !outer.stands {
-            let said =
-                format!("the seat of \"{}\" is {arm} mm beside the axis of \"{}\", which turns", own.name, outer.name);
+            let said = format!(
+                "the seat of \"{}\" is {} mm beside the axis of \"{}\", which turns",
+                own.name,
+                shown(arm),
+                outer.name
+            );
             return wrong(
                 said,
                 "shafts within turning shafts have one axis: the same x and y in `origin_mm`. A carrier is seen from itself: `stands = true`",
@@ -67,8 +71,11 @@ pub(super) fn seats(
         let (place, end) = (inner.origin[2] + own.position - outer.origin[2], length(outer));
         if place < -ONE_AXIS * end || place > end * (1.0 + ONE_AXIS) {
             let said = format!(
-                "the seat of \"{}\" is {place} mm from z = 0 of \"{}\", which is {end} mm long",
-                own.name, outer.name
+                "the seat of \"{}\" is {} mm from z = 0 of \"{}\", which is {} mm long",
+                own.name,
+                shown(place),
+                outer.name,
+                shown(end)
             );
             return wrong(
                 said,

@@ -10,7 +10,7 @@ use super::{
     schema::{RawSection, RawShaft, SECTION, SHAFT},
     values::{Checked, given, missing, needed_of, needed_word, numbers, row},
 };
-use crate::{RexsShaft, Source, read_rexs, read_shaft};
+use crate::{RexsShaft, Source, read_rexs, read_shaft, units::shown};
 
 /// Lengths and positions at the most, mm.
 const FAR: f64 = 1e6;
@@ -95,7 +95,7 @@ fn section(s: &Source<'_>, table: &Spanned<RawSection>) -> Checked<GearboxSectio
     let (length, outer) = (of("length_mm", &raw.length_mm)?, of("outer_diameter_mm", &raw.outer_diameter_mm)?);
     let inner = row!(s, SECTION, raw.inner_diameter_mm)?;
     if inner >= outer {
-        let said = format!("a section {outer} mm wide outside and {inner} mm inside");
+        let said = format!("a section {} mm wide outside and {} mm inside", shown(outer), shown(inner));
         return Err(s.conflict(&table.span(), said, "the inner diameter is the smaller one; 0 is solid"));
     }
     Ok(GearboxSection { length, outer, inner })
