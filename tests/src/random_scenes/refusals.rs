@@ -41,7 +41,10 @@ impl Refusals {
 
     /// The pattern of a message.
     pub(super) fn explain(&self, message: &str, status: i32, scene: &Draft) -> Result<String, String> {
-        range_is_left(message, scene)?;
+        // Values of a plan are drawn by the program.
+        if scene.get("vary").is_none() {
+            range_is_left(message, scene)?;
+        }
         something_is_free(message, scene)?;
         friction_is_high(message, scene)?;
         // A plan none of whose documents is accepted has no result, for the reason of the first.
