@@ -1,7 +1,7 @@
-//! How does a person try a pair by hand?
+//! How does a person try a pair or a gearbox by hand?
 //!
-//! A page on this machine alone: the scene as a form, sliders for load and micro-geometry, and what the pair at rest
-//! makes of them, within the time of a move. Everything is computed here, by the same [`analysis`] that runs a scene;
+//! A page on this machine alone: the scene as a form, sliders for load and micro-geometry, and what the pair or the
+//! gearbox at rest makes of them, within the time of a move. Everything is computed here, by the same [`analysis`] that runs a scene;
 //! the page draws, with the scripts of a report.
 //!
 //! | module | what it does |
@@ -15,6 +15,7 @@
 //! | `queue` | the latest move of a page wins, and no page waits for another |
 //! | `workers` | threads that solve moves |
 //! | `session` | a scene with its changes, solved, as the page takes it |
+//! | `gearbox` | a gearbox at rest, as the page takes it |
 //! | `scene_text` | keys of a scene's text changed one by one; keys that a complaint is about |
 //! | `sliders` | what is moved by hand, and within which ends |
 //! | `form` | all keys of a scene at rest, from the schema |
@@ -22,6 +23,7 @@
 
 mod fault;
 mod form;
+mod gearbox;
 mod guard;
 mod listen;
 mod page;

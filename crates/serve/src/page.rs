@@ -8,6 +8,8 @@ use report::{
     page::{render_own, scripts},
 };
 
+use scene::{Document, DocumentKind};
+
 use crate::form::form;
 
 /// What draws answers and sends moves.
@@ -19,7 +21,9 @@ pub(crate) const SCRIPT: &str = include_str!("page/page.js");
 /// [`ReportError`] if the template cannot be filled; that would be a fault of this program.
 pub(crate) fn html((text, file): (&str, &Path), number: u64) -> Result<String, ReportError> {
     let file = file.file_name().map_or_else(|| "scene.toml".into(), |name| name.to_string_lossy());
+    let is_gearbox = Document::new(text.to_owned(), Path::new("")).base_kind() == Some(DocumentKind::Gearbox);
     let context = context! {
+        is_gearbox => is_gearbox,
         version => env!("CARGO_PKG_VERSION"),
         text => text,
         file => file,

@@ -10,6 +10,7 @@ use std::{
 
 use analysis::{
     AnalysisError, GearCache, Interest, RemarksAtRest, RestRequest, SharedGears, SharedModels, SolvedAtRest,
+    accuracy::GearMemo,
     lumped::is_lumped,
     optimum::{Evaluated, optimise},
     results::{StaticHeadline, patterns, static_headline},
@@ -23,7 +24,8 @@ use report::{
     static_charts,
 };
 use scene::{
-    Document, Model, Scene,
+    Document, DocumentKind, Model, Scene,
+    gearbox::Gearbox,
     optimum::{DesignParameter, Optimisation, OptimisationWords},
 };
 use serde::{Deserialize, Serialize};
@@ -32,8 +34,9 @@ use store::check_memory;
 use crate::{
     fault::Fault,
     form::is_text,
+    gearbox::{self, SolvedGearbox},
     scene_text::{changed, flat},
-    sliders::{Slider, completed, short, sliders, with_starts},
+    sliders::{Slider, completed, short, sliders, sliders_of_gearbox, with_starts},
 };
 
 /// What a solve may take.
@@ -87,18 +90,25 @@ struct Answer<'a> {
     result: Option<Outcome<'a>>,
 }
 
-/// What is shown of a solved scene.
+/// What is shown of a solved document.
 #[derive(Debug, Serialize)]
-struct Outcome<'a> {
-    name: &'a str,
-    solve_ms: f64,
-    headline: serde_json::Value,
+pub(crate) struct Outcome<'a> {
+    pub name: &'a str,
+    pub solve_ms: f64,
+    pub headline: serde_json::Value,
     /// Some of it in words.
-    glance: Vec<[String; 2]>,
-    charts: Vec<Plot>,
-    maps: Vec<FieldMap<'static>>,
-    view: View,
-    remarks: Vec<String>,
+    pub glance: Vec<[String; 2]>,
+    pub charts: Vec<Plot>,
+    pub maps: Vec<FieldMap<'static>>,
+    /// The gears in space, of a pair.
+    pub view: Option<View>,
+    pub remarks: Vec<String>,
+}
+
+/// What a document describes.
+pub(crate) enum Subject {
+    Pair(Box<Scene>),
+    Gearbox(Box<Gearbox>),
 }
 
 /// Where scenes are tried, all on the same reduced gears.
@@ -108,6 +118,8 @@ pub(crate) struct Session<'a> {
     last: Mutex<Document>,
     limits: Limits,
     models: SharedModels<'a>,
+    /// Reduced gears of gearboxes.
+    gears: GearMemo<'a>,
     schema: serde_json::Value,
 }
 
@@ -117,8 +129,8 @@ pub(crate) struct Taken {
     text: String,
     /// Sliders of the scene before.
     sliders: Vec<Slider>,
-    /// The scene checked, or what is wrong with it.
-    scene: Result<Scene, Fault>,
+    /// The document checked, or what is wrong with it.
+    subject: Result<Subject, Fault>,
     /// What a search may move.
     search: BTreeMap<String, [f64; 2]>,
 }
@@ -126,24 +138,34 @@ pub(crate) struct Taken {
 impl Taken {
     /// What its gears have in common with others; `None` of a scene that is none.
     pub fn gears(&self) -> Option<Arc<SharedGears>> {
-        self.scene.as_ref().ok().map(|scene| Arc::new(SharedGears::of(scene)))
+        match &self.subject {
+            Ok(Subject::Pair(scene)) => Some(Arc::new(SharedGears::of(scene))),
+            Ok(Subject::Gearbox(_)) | Err(_) => None,
+        }
     }
 }
 
-/// A scene as it was solved, its positions, and the time that took, ms.
-type Solved = (Scene, StaticHistory, f64);
+/// A document as it was solved.
+enum Solved {
+    /// A scene, its positions, and the time that took, ms.
+    Pair(Box<(Scene, StaticHistory, f64)>),
+    Gearbox(Box<SolvedGearbox>),
+}
 
 impl<'a> Session<'a> {
     /// With the text of a scene to begin with.
     pub fn new(start: &'a str, file: &Path, limits: Limits, cache: &'a dyn GearCache) -> Self {
         let (models, schema) = (SharedModels::new(cache), scene::json_schema()["$defs"]["pair"].take());
         let last = Mutex::new(Document::new(start.to_owned(), file));
-        Self { start, last, limits, models, schema }
+        Self { start, last, limits, models, gears: GearMemo::new(cache), schema }
     }
 
     /// The scene to begin with, where this page can show it.
     pub fn first_scene(&self) -> Option<Scene> {
-        self.scene(self.start).ok()
+        match self.subject(self.start) {
+            Ok(Subject::Pair(scene)) => Some(*scene),
+            Ok(Subject::Gearbox(_)) | Err(_) => None,
+        }
     }
 
     /// Reduces the gears of a scene for those that come.
@@ -156,19 +178,24 @@ impl<'a> Session<'a> {
     /// The scene that a move asks for.
     pub fn take(&self, change: &Change) -> Taken {
         let before = flat(&change.text);
-        let known = self.scene(&change.text).ok().and_then(|scene| Some((scene.gear_pair().ok()?, scene)));
-        let moved = known.as_ref().map_or_else(Vec::new, |(pair, scene)| sliders(scene, pair, &before));
+        let moved = match self.subject(&change.text) {
+            Ok(Subject::Pair(scene)) => {
+                scene.gear_pair().map_or_else(|_| Vec::new(), |pair| sliders(&scene, &pair, &before))
+            }
+            Ok(Subject::Gearbox(file)) => sliders_of_gearbox(&file, &before),
+            Err(_) => Vec::new(),
+        };
         let wanted = with_starts(&change.set, &change.search, &before);
         let set = completed(&wanted, &moved, &before);
         let (text, refused) = match changed(&change.text, &set, |key| is_text(&self.schema, key)) {
             Ok(text) => (text, None),
             Err(fault) => (change.text.clone(), Some(fault)),
         };
-        let scene = match refused {
-            None => self.scene(&text),
+        let subject = match refused {
+            None => self.subject(&text),
             Some(fault) => Err(fault),
         };
-        Taken { text, sliders: moved, scene, search: change.search.clone() }
+        Taken { text, sliders: moved, subject, search: change.search.clone() }
     }
 
     /// The text of a scene with the values at which its transmission error is flattest; `None` where nobody waits for it
@@ -201,20 +228,24 @@ impl<'a> Session<'a> {
 
     /// The answer to a move as JSON; `None` where nobody waits for it any more.
     pub fn answer(&self, number: u64, taken: Taken, interest: Interest<'_>) -> Option<Vec<u8>> {
-        let Taken { mut text, sliders, mut scene, search } = taken;
+        let Taken { mut text, sliders, mut subject, search } = taken;
         let mut sought = None;
-        if scene.is_ok() && !search.is_empty() {
+        if subject.is_ok() && !search.is_empty() {
             match self.sought(&text, &search, interest) {
                 Ok(None) => return None,
                 Ok(Some((moved, found))) => {
-                    scene = self.scene(&moved);
+                    subject = self.subject(&moved);
                     (text, sought) = (moved, Some(found));
                 }
-                Err(fault) => scene = Err(fault),
+                Err(fault) => subject = Err(fault),
             }
         }
-        let effective = scene.as_ref().map_or_else(|_| BTreeMap::new(), |scene| flat(&scene.to_toml()));
-        let solved = match scene.and_then(|scene| self.solved(&text, &scene, interest)) {
+        let effective = match &subject {
+            Ok(Subject::Pair(scene)) => flat(&scene.to_toml()),
+            Ok(Subject::Gearbox(file)) => gearbox::effective(file),
+            Err(_) => BTreeMap::new(),
+        };
+        let solved = match subject.and_then(|subject| self.solved(&text, &subject, interest)) {
             Ok(None) => return None,
             Ok(Some(solved)) => Ok(solved),
             Err(fault) => Err(fault),
@@ -230,14 +261,20 @@ impl<'a> Session<'a> {
             result: None,
         };
         Some(match &solved {
-            Ok(solved) => shown(answer, &text, solved),
+            Ok(Solved::Pair(solved)) => shown(answer, &text, solved),
+            Ok(Solved::Gearbox(solved)) => json(&Answer { result: Some(solved.outcome()), ..answer }),
             Err(fault) => json(&Answer { fault: Some(fault.clone()), ..answer }),
         })
     }
 
-    /// The checked scene of a text, where this page can show it.
-    fn scene(&self, text: &str) -> Result<Scene, Fault> {
-        let scene = self.document(text).scene(&[]).map_err(|e| Fault::of_scene(text, &e))?;
+    /// What a text describes, checked, where this page can show it.
+    fn subject(&self, text: &str) -> Result<Subject, Fault> {
+        let document = self.document(text);
+        if document.base_kind() == Some(DocumentKind::Gearbox) {
+            let file = document.gearbox(&[]).map_err(|e| Fault::of_scene(text, &e))?;
+            return Ok(Subject::Gearbox(Box::new(file)));
+        }
+        let scene = document.scene(&[]).map_err(|e| Fault::of_scene(text, &e))?;
         if scene.motion.is_some() || is_lumped(&scene) {
             let fault = Fault::new("this page shows a pair at rest, and the scene asks for a motion", AT_REST);
             return Err(fault.about(if is_lumped(&scene) { "analysis.model" } else { "analysis.kind" }));
@@ -246,7 +283,7 @@ impl<'a> Session<'a> {
             let fault = Fault::new("the model \"full\" takes minutes a position, and this page follows the hand", HELD);
             return Err(fault.about("analysis.model"));
         }
-        Ok(scene)
+        Ok(Subject::Pair(Box::new(scene)))
     }
 
     /// The text with the files that it names, of which those of the text before are not read again.
@@ -261,11 +298,20 @@ impl<'a> Session<'a> {
         check_memory(scene, (self.limits.free_bytes)()).map(drop).map_err(|e| Fault::of_memory(&e))
     }
 
-    fn solved(&self, text: &str, scene: &Scene, interest: Interest<'_>) -> Result<Option<Solved>, Fault> {
+    fn solved(&self, text: &str, subject: &Subject, interest: Interest<'_>) -> Result<Option<Solved>, Fault> {
+        let scene = match subject {
+            Subject::Pair(scene) => scene,
+            Subject::Gearbox(file) => {
+                file.meshes.iter().try_for_each(|mesh| self.fits(&mesh.scene))?;
+                return gearbox::solved(text, file, &self.gears).map(|solved| Some(Solved::Gearbox(Box::new(solved))));
+            }
+        };
         self.fits(scene)?;
         let start = Instant::now();
         match self.at_rest(scene, interest) {
-            Ok(SolvedAtRest { scene, history, .. }) => Ok(Some((scene, history, 1e3 * start.elapsed().as_secs_f64()))),
+            Ok(SolvedAtRest { scene, history, .. }) => {
+                Ok(Some(Solved::Pair(Box::new((scene, history, 1e3 * start.elapsed().as_secs_f64())))))
+            }
             Err(AnalysisError::Cancelled) => Ok(None),
             Err(e) => Err(Fault::of_analysis(text, &e)),
         }
@@ -290,7 +336,7 @@ const AT_REST: &str = "take `kind = \"static\"` and `model = \"reduced\"` in [an
 const HELD: &str = "take `model = \"reduced\"` in [analysis]; `ale-gear run` solves it";
 
 /// The answer with all that is drawn of a solved scene.
-fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) -> Vec<u8> {
+fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &(Scene, StaticHistory, f64)) -> Vec<u8> {
     let drawn = || -> Result<_, Fault> {
         let statistics = |e: study::StudyError| Fault { hint: e.hint(), ..Fault::new(e.to_string(), "") };
         let pair = scene.gear_pair().map_err(|e| Fault::of_scene(text, &e))?;
@@ -314,7 +360,7 @@ fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) ->
         glance: glance(scene, &headline),
         charts: charts.iter().map(LineChart::plot).collect(),
         maps,
-        view,
+        view: Some(view),
         remarks: history.remarks.iter().map(|said| shown_units(&said.to_string())).collect(),
     };
     json(&Answer { result: Some(result), ..answer })

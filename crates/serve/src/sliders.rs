@@ -1,20 +1,23 @@
 //! What is moved by hand, and within which ends.
 
-use std::collections::BTreeMap;
+use std::{borrow::Cow, collections::BTreeMap};
 
 use geometry::{Gear, GearPair};
-use scene::Scene;
+use scene::{
+    Scene,
+    gearbox::{Gearbox, GearboxTorque},
+};
 use serde::Serialize;
 
 /// A number of the scene that is moved by hand.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Slider {
     /// Part of the pair to which the slider belongs, in words.
-    pub group: &'static str,
-    /// Key of the scene with dots.
+    pub group: Cow<'static, str>,
+    /// Key of the document with dots.
     pub key: String,
     /// In words.
-    pub label: &'static str,
+    pub label: Cow<'static, str>,
     /// Unit of the number.
     pub unit: &'static str,
     /// Ends, which stay while the text of the scene does.
@@ -38,10 +41,41 @@ pub(crate) fn sliders(scene: &Scene, pair: &GearPair, written: &Written) -> Vec<
     all
 }
 
+/// The sliders of a gearbox: its torques, and the micro-geometry of every mesh.
+pub(crate) fn sliders_of_gearbox(file: &Gearbox, written: &Written) -> Vec<Slider> {
+    let torque = |(i, own): (usize, &GearboxTorque)| {
+        let most = round_up(if own.torque > 0.0 { 2e-3 * own.torque } else { 100.0 });
+        let label = format!("torque on {}", file.shafts[own.shaft].name).into();
+        let (key, step) = (format!("torque.{i}.torque_nm"), most / NOTCHES);
+        Slider { group: "load".into(), key, label, unit: "N·m", ends: [0.0, most], step, rest: 0.0 }
+    };
+    let mut all: Vec<Slider> = file.torques.iter().enumerate().map(torque).collect();
+    for (i, mesh) in file.meshes.iter().enumerate() {
+        let Ok(pair) = mesh.scene.gear_pair() else { continue };
+        let before = format!("mesh.{i}.scene.");
+        let of_mesh =
+            written.iter().filter_map(|(key, value)| Some((key.strip_prefix(&before)?.to_owned(), value.clone())));
+        let own = sliders(&mesh.scene, &pair, &of_mesh.collect()).into_iter();
+        all.extend(own.filter(|slider| slider.key.contains(".modification.")).map(|slider| {
+            let (key, group) = (format!("{before}{}", slider.key), format!("{}: {}", mesh.name, slider.group).into());
+            Slider { key, group, ..slider }
+        }));
+    }
+    all
+}
+
 fn load(scene: &Scene) -> [Slider; 2] {
-    let of = |key: &str, label, unit, most| {
+    let of = |key: &str, label: &'static str, unit, most| {
         let step = most / NOTCHES;
-        Slider { group: "load", key: key.into(), label, unit, ends: [step, most], step, rest: step }
+        Slider {
+            group: "load".into(),
+            key: key.into(),
+            label: label.into(),
+            unit,
+            ends: [step, most],
+            step,
+            rest: step,
+        }
     };
     let (torque, speed) = (scene.operation.torque_nm, scene.operation.speed_rpm);
     let torque = of("operation.torque_nm", "torque", "N·m", round_up(if torque > 0.0 { 2.0 * torque } else { 100.0 }));
@@ -58,9 +92,9 @@ fn flank(group: &'static str, gear: &Gear, module: f64, written: &Written) -> Ve
         let own = format!("{table}.drive.{name}");
         if written.contains_key(&own) { own } else { format!("{table}.{name}") }
     };
-    let amount = |name: &str, label, ends: [f64; 2]| {
+    let amount = |name: &str, label: &'static str, ends: [f64; 2]| {
         let step = (ends[1] / NOTCHES).min(0.5);
-        Slider { group, key: key(name), label, unit: "µm", ends, step, rest: 0.0 }
+        Slider { group: group.into(), key: key(name), label: label.into(), unit: "µm", ends, step, rest: 0.0 }
     };
     let (relief, small) = (round_up(15.0 * module), round_up(10.0 * module));
     let start = |what: &str, label, shares: [f64; 3]| start(gear, &key, what, (group, label), shares, written);
@@ -102,7 +136,8 @@ fn start(
     // A division leaves no digits behind the step.
     let notches: f64 = 1.0 / step;
     let whole = |v: f64| (v * notches).round() / notches.round();
-    Slider { group, key, label, unit, ends: [whole(low), whole(high)], step, rest: whole(rest) }
+    let ends = [whole(low), whole(high)];
+    Slider { group: group.into(), key, label: label.into(), unit, ends, step, rest: whole(rest) }
 }
 
 /// In the plane of action or, where the scene has them so, along and across the plane of axes; the ends are 2 um a mm
@@ -117,8 +152,8 @@ fn misalignment(scene: &Scene, written: &Written) -> Vec<Slider> {
     };
     let step = (most / NOTCHES).clamp(0.1, 1.0);
     let of = |(name, label): (&str, &'static str)| {
-        let (group, key, ends) = ("misalignment", misaligned(name), [-most, most]);
-        Slider { group, key, label, unit: "µm", ends, step, rest: 0.0 }
+        let (key, ends) = (misaligned(name), [-most, most]);
+        Slider { group: "misalignment".into(), key, label: label.into(), unit: "µm", ends, step, rest: 0.0 }
     };
     names.map(of).into()
 }

@@ -87,7 +87,7 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Make report.html of a result folder again, with the pages of this version
     Report(report::ReportArgs),
-    /// A page on this machine where a pair is tried by hand: sliders, curves, pattern, gears in space
+    /// A page on this machine where a pair or a gearbox is tried by hand: sliders, curves, pattern, gears in space
     Serve(serve::ServeArgs),
     /// Write a commented scene to begin with, from flags or from a few questions
     Init(init::InitArgs),

@@ -1,4 +1,4 @@
-//! `ale-gear serve`: a page on this machine where a pair is tried by hand.
+//! `ale-gear serve`: a page on this machine where a pair or a gearbox is tried by hand.
 
 use std::{
     io::Write,
@@ -20,7 +20,7 @@ use crate::{
 /// Words of `ale-gear serve`.
 #[derive(Debug, clap::Args)]
 pub(super) struct ServeArgs {
-    /// Scene file to begin with [default: the default pair on meshes of the built-in mesher]
+    /// Scene or gearbox file to begin with [default: the default pair on meshes of the built-in mesher]
     scene: Option<PathBuf>,
     /// Port of 127.0.0.1 [default: a free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
@@ -70,8 +70,9 @@ impl ServeArgs {
                 let text = read_text(file).map_err(|source| SceneError::Read { file: file.clone(), source })?;
                 let document = Document::new(text.clone(), file);
                 let kind = document.base_kind().or(document.kind());
-                if let Some(other) = kind.filter(|kind| *kind != DocumentKind::Scene) {
-                    let message = format_args!("{}: this is {other}, and a pair is tried by hand", file.display());
+                if let Some(other) = kind.filter(|kind| !matches!(kind, DocumentKind::Scene | DocumentKind::Gearbox)) {
+                    let message =
+                        format_args!("{}: this is {other}, and a pair or a gearbox is tried by hand", file.display());
                     let hint = format!("`ale-gear {} {} --out DIR` takes it", other.command(), file.display());
                     return Err(CommandError::input(message, Some(hint)));
                 }

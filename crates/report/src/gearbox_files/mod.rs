@@ -11,6 +11,8 @@ mod swing_words;
 mod vibration;
 mod vibration_rows;
 
+pub use page::charts as gearbox_charts;
+
 use std::sync::Arc;
 
 use analysis::{

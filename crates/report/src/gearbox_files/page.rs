@@ -11,7 +11,7 @@ use scene::gearbox::{Gearbox, GearboxPlanets, PlanetMesh};
 use super::{branch, motion, norm, space::BoxInSpace, vibration};
 use crate::{
     ReportError,
-    charts::{Curve, embedded, line_chart},
+    charts::{Curve, LineChart, embedded},
     contact_files::pattern_figure,
     how_exact::how_exact,
     page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, escaped, render},
@@ -50,7 +50,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(outputs(result));
     page.push(patterns(result));
     result.accuracy.iter().flat_map(how_exact).for_each(|part| page.push(part));
-    page.push(Part::new("Over the positions").figures(charts(file, result)));
+    page.push(Part::new("Over the positions").figures(charts(file, result).iter().filter_map(LineChart::figure)));
     if let Some((asked, swings)) = file.vibration.as_ref().zip(result.vibration.as_ref()) {
         vibration::parts(file, asked, swings).into_iter().for_each(|part| page.push(part));
     }
@@ -286,8 +286,9 @@ fn twist(line: &ShaftLine) -> f64 {
     turns().fold(f64::NEG_INFINITY, f64::max) - turns().fold(f64::INFINITY, f64::min)
 }
 
-/// Transmission errors, bearing forces and lags over the input's angle, line loads over the width, lines of shafts.
-fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<String> {
+/// Charts of a gearbox at rest: transmission errors, shares of planets, lags and bearing forces over the input's angle,
+/// line loads over the width, bending of the shafts.
+pub fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<LineChart> {
     let over = |label: &str, of: &dyn Fn(&GearboxPosition) -> f64| Curve {
         label: label.to_owned(),
         points: result.positions.iter().map(|p| (p.input_angle.to_degrees(), of(p))).collect(),
@@ -336,7 +337,7 @@ fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<String> {
         ("Forces of the bearings less their means", angle, "force less its mean [N]", swings.collect(), false),
         ("Bending of the shafts, first position", "along the shaft [mm]", "off its axis [um]", lines.collect(), true),
     ];
-    all.into_iter().filter_map(|(title, x, y, curves, zero)| line_chart(title, x, y, &curves, zero)).collect()
+    all.into_iter().filter_map(|(title, x, y, curves, zero)| LineChart::new(title, [x, y], &curves, zero)).collect()
 }
 
 fn output<'a>(file: &'a Gearbox, i: usize) -> Cow<'a, str> {

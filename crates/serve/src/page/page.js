@@ -69,7 +69,7 @@
     excerpt.textContent = fault.excerpt ?? "";
     excerpt.hidden = !fault.excerpt;
     hint.textContent = fault.hint ? `hint: ${fault.hint}` : "";
-    $("status").textContent = "the scene cannot be solved as it is";
+    $("status").textContent = "it cannot be solved as it is";
     $("time").textContent = "";
     for (const place of document.querySelectorAll("[data-key]")) {
       if (!fault.keys.includes(place.dataset.key)) continue;
@@ -78,7 +78,7 @@
       words.textContent = fault.hint ? `${fault.message}. Hint: ${fault.hint}` : fault.message;
       place.append(words);
       for (let table = place.closest("details"); table; table = table.parentElement.closest("details")) {
-        if (place.classList.contains("row") && $("form").open) table.open = true;
+        if (place.classList.contains("row") && $("form")?.open) table.open = true;
       }
     }
   };
@@ -127,7 +127,7 @@
     range.setAttribute("aria-valuetext", unit);
     range.addEventListener("input", () => { exact.value = range.value; range.setAttribute("aria-valuetext", `${range.value} ${unit}`); set(key, range.value); });
     exact.addEventListener("change", () => set(key, exact.value));
-    if (/\.modification\./.test(key)) {
+    if ($("seek") && /\.modification\./.test(key)) {
       const tick = Object.assign(document.createElement("input"), { type: "checkbox", className: "seek", title: "the search may move it" });
       tick.setAttribute("aria-label", `the search may move the ${label}`);
       tick.addEventListener("change", () => { $("seek").disabled = !document.querySelector(".seek:checked"); });
@@ -148,7 +148,7 @@
     Object.assign(scene.set, values);
     $("sought").textContent = `Peak to peak ${from.toPrecision(3)} µm before, ${to.toPrecision(3)} µm now, after ${evaluations} evaluations. Grind: ${Object.entries(values).map(([key, value]) => `${key.replace(".modification.", " ").replace(/_/g, " ")} ${value}`).join(", ")}.`;
   };
-  $("seek").addEventListener("click", seek);
+  $("seek")?.addEventListener("click", seek);
 
   const fields = [...document.querySelectorAll(".row")].map(row => [row.dataset.key, row.querySelector("input, select")]);
   fields.forEach(([key, field]) => field.addEventListener("change", () => set(key, field.value)));
@@ -217,7 +217,7 @@
       const after_ms = performance.now() - since;
       if (number === moves.shown) { others(result); about(answer); }
       drawn.push({ number, after_ms, came_ms, solve_ms: result.solve_ms });
-      afterFrame(() => { if (number === moves.shown) drawIn($("stage"), () => inSpace(result.view)); });
+      if (result.view) afterFrame(() => { if (number === moves.shown) drawIn($("stage"), () => inSpace(result.view)); });
     });
   };
   const afterFrame = work => requestAnimationFrame(() => setTimeout(work));
@@ -261,7 +261,7 @@
   });
 
   watcher.observe($("pattern"));
-  watcher.observe($("stage"));
+  if ($("stage")) watcher.observe($("stage"));
   window.page = { drawn, moves };
   moves.since = performance.now();
   send();

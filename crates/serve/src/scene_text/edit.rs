@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+use toml_edit::{Array, DocumentMut, Item, Table, TableLike, Value};
 
 use crate::fault::Fault;
 
@@ -48,7 +48,8 @@ pub(crate) fn changed(
     Ok(document.to_string())
 }
 
-/// Whether it could be done.
+/// Whether it could be done. A number among the parts counts the entries of a list of tables; below the scene of a mesh
+/// that is a file of its own, a key stands in the list `set` of that mesh.
 fn put(table: &mut dyn TableLike, parts: &[&str], value: Option<Value>) -> bool {
     let Some((first, rest)) = parts.split_first() else { return false };
     if rest.is_empty() {
@@ -63,6 +64,9 @@ fn put(table: &mut dyn TableLike, parts: &[&str], value: Option<Value>) -> bool 
         }
         return true;
     }
+    if *first == SCENE && table.get(first).is_some_and(Item::is_str) {
+        return put_beside(table, &rest.join("."), value);
+    }
     if table.get(first).is_none_or(Item::is_none) {
         if value.is_none() {
             return true;
@@ -71,11 +75,45 @@ fn put(table: &mut dyn TableLike, parts: &[&str], value: Option<Value>) -> bool 
         inner.set_implicit(true);
         table.insert(first, Item::Table(inner));
     }
-    table.get_mut(first).and_then(Item::as_table_like_mut).is_some_and(|inner| put(inner, rest, value))
+    let entry = |rest: &[&str]| rest.first().and_then(|part| part.parse::<usize>().ok());
+    match table.get_mut(first) {
+        Some(Item::ArrayOfTables(list)) => {
+            entry(rest).and_then(|i| list.get_mut(i)).is_some_and(|inner| put(inner, &rest[1..], value))
+        }
+        Some(Item::Value(Value::Array(list))) => {
+            let inner = entry(rest).and_then(|i| list.get_mut(i)).and_then(Value::as_inline_table_mut);
+            inner.is_some_and(|inner| put(inner, &rest[1..], value))
+        }
+        Some(item) => item.as_table_like_mut().is_some_and(|inner| put(inner, rest, value)),
+        None => false,
+    }
 }
 
-/// Every key of a text with dots, and its value as one would type it; lists of tables are left out. Nothing of what is
-/// no TOML.
+/// Table or path of the pair of a mesh, and the keys of that file that are set otherwise.
+const SCENE: &str = "scene";
+const SET: &str = "set";
+
+/// Sets a key of the file that a mesh names, in the list beside that name.
+fn put_beside(mesh: &mut dyn TableLike, key: &str, value: Option<Value>) -> bool {
+    if mesh.get(SET).is_none() {
+        if value.is_none() {
+            return true;
+        }
+        mesh.insert(SET, Item::Value(Value::Array(Array::new())));
+    }
+    let Some(list) = mesh.get_mut(SET).and_then(Item::as_array_mut) else { return false };
+    let is_it =
+        |word: &Value| word.as_str().and_then(|word| word.split_once('=')).is_some_and(|(own, _)| own.trim() == key);
+    list.retain(|word| !is_it(word));
+    if let Some(mut value) = value {
+        value.decor_mut().clear();
+        list.push(format!("{key}={value}"));
+    }
+    true
+}
+
+/// Every key of a text with dots, and its value as one would type it; entries of lists of tables are counted from 0.
+/// Nothing of what is no TOML.
 pub(crate) fn flat(text: &str) -> BTreeMap<String, String> {
     let mut all = BTreeMap::new();
     if let Ok(document) = text.parse::<DocumentMut>() {
@@ -89,6 +127,13 @@ fn walk(path: &str, table: &dyn TableLike, all: &mut BTreeMap<String, String>) {
         let key = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         match (item.as_table_like(), item) {
             (Some(inner), _) => walk(&key, inner, all),
+            (None, Item::ArrayOfTables(list)) => {
+                list.iter().enumerate().for_each(|(i, inner)| walk(&format!("{key}.{i}"), inner, all));
+            }
+            (None, Item::Value(Value::Array(list))) if name == SET && table.get(SCENE).is_some_and(Item::is_str) => {
+                let words = list.iter().filter_map(|word| word.as_str()?.split_once('='));
+                all.extend(words.map(|(own, value)| (of_scene(path, own.trim()), value.trim().to_owned())));
+            }
             (None, Item::Value(Value::String(text))) => _ = all.insert(key, text.value().clone()),
             (None, Item::Value(value)) => {
                 // Without the comment behind it.
@@ -99,6 +144,11 @@ fn walk(path: &str, table: &dyn TableLike, all: &mut BTreeMap<String, String>) {
             _ => {}
         }
     }
+}
+
+/// A key of the scene of the mesh at a path.
+fn of_scene(mesh: &str, key: &str) -> String {
+    if mesh.is_empty() { format!("{SCENE}.{key}") } else { format!("{mesh}.{SCENE}.{key}") }
 }
 
 #[cfg(test)]
@@ -130,6 +180,24 @@ mod tests {
         assert!(!new.contains("[pair]\n"), "{new}");
         assert_eq!(with("pinion.teeth", " "), TEXT.replace("teeth = 30 # z1\n", ""));
         assert_eq!(with("load.torque_nm", ""), TEXT);
+    }
+
+    /// A key of an entry of a list; below a scene that is a file, in the list beside its name.
+    #[test]
+    fn entries_of_lists_are_counted() {
+        const BOX: &str = "[[torque]]\ntorque_nm = 3.0 # on the wheel\n[[mesh]]\nscene = \"a.toml\"\n";
+        let with = |text: &str, key: &str, value: &str| {
+            changed(text, &BTreeMap::from([(key.into(), value.into())]), |_| false).unwrap()
+        };
+        assert_eq!(with(BOX, "torque.0.torque_nm", "4.0"), BOX.replace("3.0", "4.0"));
+        let slope = "mesh.0.scene.pinion.modification.lead_slope_um";
+        let (one, two) = (with(BOX, slope, "5"), with(&with(BOX, slope, "5"), slope, "-6.5"));
+        assert_eq!(one, format!("{BOX}set = [\"pinion.modification.lead_slope_um=5\"]\n"));
+        assert_eq!(two, one.replace("=5", "=-6.5"));
+        assert_eq!(flat(&two)[slope], "-6.5");
+        assert_eq!(flat(&two)["torque.0.torque_nm"], "3.0");
+        assert_eq!(with(&one, slope, ""), format!("{BOX}set = []\n"));
+        assert!(changed(BOX, &BTreeMap::from([("torque.1.torque_nm".into(), "1".into())]), |_| false).is_err());
     }
 
     #[test]

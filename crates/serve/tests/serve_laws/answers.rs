@@ -1,9 +1,10 @@
 //! The numbers of the page are those of a run, its complaints those of the command.
 
 use analysis::{
-    NoCache, RemarksAtRest, RestRequest, SharedModels, StaticAnalysis, results::static_headline, solve_at_rest,
+    Context, NoCache, NoObserver, RemarksAtRest, RestRequest, SharedModels, StaticAnalysis, results::static_headline,
+    solve_at_rest,
 };
-use scene::Scene;
+use scene::{Scene, gearbox::Gearbox};
 use serde_json::{Value, json};
 
 use crate::served::{ISO, Served, with_contact};
@@ -141,4 +142,33 @@ fn a_move_that_was_overtaken_is_dropped() {
     let (page, other) = (served.open(), served.open());
     let status = |page, number| served.moved(page, number, ISO, json!({})).status;
     assert_eq!([status(page, 5), status(page, 3), status(page, 6), status(other, 1)], [200, 409, 200, 200]);
+}
+
+/// The numbers of a gearbox are those of a run of the document that is handed out, of which motions are left out.
+#[test]
+fn a_gearbox_has_the_numbers_of_a_run() {
+    let text = include_str!("../../../../scenes/gearbox/engine.toml");
+    let served = Served::new(text);
+    let slope = "mesh.0.scene.pinion.modification.lead_slope_um";
+    let mut seen = Vec::new();
+    for set in [json!({}), json!({ slope: "15" }), json!({ slope: "15", "torque.0.torque_nm": "120.0" })] {
+        let answer = served.answer(text, set);
+        let mut file = Gearbox::parse(answer["text"].as_str().unwrap(), "a.toml".as_ref()).unwrap();
+        (file.motion, file.vibration, file.modes, file.branch) = (None, None, None, None);
+        let run = analysis::solve(&file, Context::new(&mut NoObserver)).unwrap().finished().unwrap();
+        assert_eq!(answer["result"]["headline"], run.headline(), "of\n{}", answer["text"]);
+        assert!(
+            answer["result"]["remarks"][0].as_str().unwrap().contains("[motion]"),
+            "{}",
+            answer["result"]["remarks"]
+        );
+        assert_eq!(answer["result"]["maps"].as_array().unwrap().len(), 2, "the pattern on either flank");
+        let has = |key: &str| answer["sliders"].as_array().unwrap().iter().any(|slider| slider["key"] == key);
+        assert!(has(slope) && has("torque.0.torque_nm") && !has("mesh.0.scene.operation.torque_nm"));
+        seen.push(run.headline()["face_load_factor"][0].as_f64().unwrap());
+    }
+    seen.dedup();
+    assert_eq!(seen.len(), 3, "each move changes K_Hbeta: {seen:?}");
+    let fault = served.answer(text, json!({ "torque.3.torque_nm": "1" }))["fault"].clone();
+    assert_eq!(fault["keys"], json!(["torque.3.torque_nm"]), "{fault}");
 }
