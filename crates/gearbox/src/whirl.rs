@@ -65,7 +65,7 @@ pub struct Rotors {
 pub struct Held {
     /// Shafts that are rigid in rigid bearings: they only rotate about their axes.
     pub shafts: Vec<usize>,
-    /// Discs whose rotation is given, as by a machine of infinite inertia.
+    /// Discs whose rotation is given, whatever the inertia of the machine there.
     pub turns: Vec<usize>,
 }
 
