@@ -434,7 +434,7 @@ impl GearboxError {
         }
     }
 
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         let text = match self {
             Self::NoShafts => "give one shaft at least",

@@ -69,7 +69,7 @@ pub enum SeatError {
 }
 
 impl SeatError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Itself { .. } => {

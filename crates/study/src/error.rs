@@ -93,7 +93,7 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NotWholeCycles { .. } => {

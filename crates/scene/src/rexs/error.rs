@@ -139,7 +139,7 @@ pub enum RexsError {
 }
 
 impl RexsError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             Self::Read(e) if e.kind() == std::io::ErrorKind::InvalidData => {

@@ -21,7 +21,7 @@ pub struct RexsGearbox {
     pub text: String,
     /// File name and text of the scene of each stage, and the pair that it was made of.
     pub scenes: Vec<(String, String, RexsPair)>,
-    /// What the user should know of it.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
 }
 

@@ -61,7 +61,7 @@ pub enum CalculixError {
 }
 
 impl CalculixError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NotInstalled { .. } => {
