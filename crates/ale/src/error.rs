@@ -1,6 +1,6 @@
-//! What can go wrong at a tooth change.
+//! Errors of tooth changes.
 
-/// A tooth change that must not happen, or a window that cannot be.
+/// A tooth change that is not permitted, or a window that cannot exist.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AleError {
@@ -18,64 +18,64 @@ pub enum AleError {
         /// Normal force of the pair, N.
         force_n: f64,
     },
-    /// More teeth than the gear has.
+    /// The window has more teeth than the gear.
     #[error("a window of {window} teeth does not fit a gear of {teeth} teeth")]
     TooWide {
-        /// Teeth of the window.
+        /// Number of teeth of the window.
         window: usize,
-        /// Teeth of the gear.
+        /// Number of teeth of the gear.
         teeth: u32,
     },
-    /// Loads for another number of pairs.
+    /// The number of forces differs from the number of pairs.
     #[error("{given} pair forces for a window of {window} pairs")]
     WrongCount {
-        /// Forces given.
+        /// Number of forces given.
         given: usize,
-        /// Pairs of the window.
+        /// Number of pairs of the window.
         window: usize,
     },
-    /// A pair outside the window would touch.
+    /// A pair outside the window would be in contact.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: pair {pair} outside the window of {window} teeth overlaps by {overlap_um:.3} um under {torque_nm} N m"
     )]
     Starved {
         /// Mesh cycle.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
         /// Running number of the pair.
         pair: i64,
-        /// Teeth of the window.
+        /// Number of teeth of the window.
         window: usize,
         /// Overlap of the undeformed flanks at the loaded pose, um.
         overlap_um: f64,
         /// Torque, N m.
         torque_nm: f64,
     },
-    /// Tooth changes drop forces: the pair that comes into the window touched already.
+    /// Tooth changes cause force jumps: a pair is already in contact when it enters the window.
     #[error(
         "tooth changes of the window of {window} teeth drop forces of up to {jump_n:.3} N, the flanks press with up to {largest_n:.3} N"
     )]
     Dropped {
-        /// Teeth of the window.
+        /// Number of teeth of the window.
         window: usize,
         /// Largest jump of the normal force at a tooth change, N.
         jump_n: f64,
         /// Largest normal force, N.
         largest_n: f64,
     },
-    /// The gears turn farther in a step than the window can follow.
+    /// The gears rotate farther in one step than the window can follow.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: the gears have turned by {teeth:.3e} teeth in one step, the window has {window}"
     )]
     Leapt {
-        /// Mesh cycle at the step's end.
+        /// Mesh cycle at the end of the step.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
-        /// Teeth that the window is behind.
+        /// Number of teeth by which the window lags.
         teeth: f64,
-        /// Teeth of the window.
+        /// Number of teeth of the window.
         window: usize,
     },
 }

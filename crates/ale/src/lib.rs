@@ -1,8 +1,8 @@
-//! Which teeth are in the window, when may one leave, when does the window starve and grow?
+//! The window of tooth pairs that slides along a rotating gear pair: its teeth, its changes and its width.
 //!
-//! A window of W teeth of each gear is kept; it slides over the material one tooth at a time, both gears at once, while
-//! the outgoing tooth is unloaded. Pairs have running numbers k that never wrap: pinion tooth k mod z1 meets wheel
-//! tooth -k mod z2.
+//! A window of W teeth of each gear is kept. It moves over the material one tooth at a time, on both gears at once,
+//! while the outgoing tooth is unloaded. Pairs have running numbers k that never wrap: pinion tooth k mod z1 meets
+//! wheel tooth -k mod z2.
 
 mod error;
 mod sliding;

@@ -1,14 +1,14 @@
-//! A window that slides with the pair: when it moves on, and when it has too few teeth. Theory (14).
+//! A window that slides with the rotating pair: when it moves on, and when it has too few teeth. Theory (14).
 
 use geometry::Sense;
 
 use crate::{AleError, Station, ToothWindow};
 
-/// The window of tooth pairs of a pair that turns.
+/// The window of tooth pairs of a rotating pair.
 ///
-/// Contact forces are those of the window's pairs, N, ascending in running numbers. A pair leaves when another window
-/// lies nearer to where the pair stands, and when its force is exactly zero: nothing but an open gap is. Displacements
-/// and velocities go over by themselves, for elastic coordinates follow from the forces.
+/// Contact forces are those of the window's pairs, N, in ascending running number. A pair leaves when another window is
+/// nearer to the pair's station and its own force is exactly zero, which means an open gap. Displacements and
+/// velocities need no transfer, because elastic coordinates follow from the forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SlidingWindow {
     window: ToothWindow,
@@ -16,21 +16,19 @@ pub struct SlidingWindow {
 }
 
 impl SlidingWindow {
-    /// The window of `count` pairs nearest to where the pair stands; gears of `teeth` teeth, the pinion turning in
-    /// `sense`.
+    /// The window of `count` pairs nearest to a station, for gears with `teeth` teeth; the pinion rotates in `sense`.
     ///
     /// # Errors
-    /// [`AleError::TooWide`].
+    /// [`AleError::TooWide`] if a gear has fewer teeth than the window.
     pub fn at(station: Station, count: usize, teeth: [u32; 2], sense: Sense) -> Result<Self, AleError> {
         let first = ToothWindow::nominal_first(station.centre(sense), count);
         Ok(Self { window: ToothWindow::new(first, count, teeth)?, sense })
     }
 
-    /// The window at the start of cycle 0. Two windows are equally near there; this is the one that serves the cycle to
-    /// come.
+    /// The window at the start of cycle 0. Two windows are equally near there; this is the one for the coming cycle.
     ///
     /// # Errors
-    /// [`AleError::TooWide`].
+    /// [`AleError::TooWide`] if a gear has fewer teeth than the window.
     pub fn at_start(count: usize, teeth: [u32; 2], sense: Sense) -> Result<Self, AleError> {
         let start = Station { cycle: 0, phase: 0.0 };
         let inward = -1e-9 * sense.sign() as f64;
@@ -38,28 +36,28 @@ impl SlidingWindow {
         Ok(Self { window: ToothWindow::new(first, count, teeth)?, sense })
     }
 
-    /// Which pairs it holds.
+    /// The pairs in the window.
     pub fn window(&self) -> &ToothWindow {
         &self.window
     }
 
-    /// This slide at another place.
+    /// This sliding window with other pairs.
     #[must_use]
     pub fn with_window(self, window: ToothWindow) -> Self {
         Self { window, ..self }
     }
 
-    /// How many teeth the window nearest to a station lies ahead in the sense of rotation; negative: behind.
+    /// Number of teeth by which the window nearest to a station is ahead, in the sense of rotation; negative: behind.
     pub fn teeth_behind(&self, station: Station) -> i64 {
         let due = ToothWindow::nominal_first(station.centre(self.sense), self.window.count());
         (self.window.first() - due) * self.sense.sign()
     }
 
-    /// The window one tooth nearer to a station; `None` where this one is the nearest, or where the outgoing tooth
-    /// carries load: then the change waits.
+    /// The window one tooth nearer to a station. `None` if this one is the nearest, or if the outgoing tooth carries
+    /// load; then the change is postponed.
     ///
     /// # Errors
-    /// [`AleError::WrongCount`].
+    /// [`AleError::WrongCount`] if there is not one force per pair.
     pub fn due_change(&self, station: Station, forces: &[f64]) -> Result<Option<Self>, AleError> {
         let way = match self.teeth_behind(station) {
             0 => return Ok(None),
@@ -73,19 +71,19 @@ impl SlidingWindow {
         }
     }
 
-    /// The window one tooth on in the sense of rotation, due or not.
+    /// The window one tooth further in the sense of rotation, even if no change is due.
     ///
     /// # Errors
-    /// [`AleError::LoadedTooth`].
+    /// [`AleError::LoadedTooth`] if the outgoing tooth carries load.
     pub fn change(&self, forces: &[f64]) -> Result<Self, AleError> {
         Ok(Self { window: self.window.change(self.sense, forces)?, ..*self })
     }
 
-    /// Refuses a pair that has turned past the whole window since it moved last. The window follows tooth by tooth, and
-    /// nobody has seen what happened in between.
+    /// Returns an error if the pair has rotated past the whole window since the window last moved. The window follows
+    /// tooth by tooth, so nothing is known of the motion in between.
     ///
     /// # Errors
-    /// [`AleError::Leapt`].
+    /// [`AleError::Leapt`] if the pair has rotated too far.
     pub fn check_pace(&self, cycles: f64) -> Result<(), AleError> {
         let (station, window) = (Station::at_cycles(cycles), self.window.count());
         let due = ToothWindow::nominal_first(station.centre(self.sense), window);
@@ -97,13 +95,14 @@ impl SlidingWindow {
         Err(AleError::Leapt { cycle: station.cycle, phase: station.phase, teeth, window })
     }
 
-    /// Refuses a window beside which a pair ought to carry load: its undeformed flanks overlap at the loaded pose.
+    /// Returns an error if a pair next to the window should carry load: its undeformed flanks overlap at the loaded
+    /// pose.
     ///
-    /// `gap` is the least gap of a pair by its running number, mm; `allowed` the overlap (mm) that counts as none;
-    /// `torque` that on the driven gear, N mm.
+    /// `gap` gives the smallest gap of a pair by its running number, mm; `allowed` is the overlap (mm) that is
+    /// tolerated; `torque` is that on the driven gear, N mm.
     ///
     /// # Errors
-    /// [`AleError::Starved`].
+    /// [`AleError::Starved`] if such a pair is found.
     pub fn check_neighbours(
         &self,
         station: Station,
@@ -127,11 +126,11 @@ impl SlidingWindow {
     }
 }
 
-/// Solves with a window, and with wider ones as long as `wider` names one for what went wrong: a starved window asks
-/// for one more tooth. `None` is the width that the options ask for.
+/// Solves with a window and repeats with wider ones while `wider` returns a width for the error. A starved window is
+/// widened by one tooth. The width `None` is the one set by the options.
 ///
 /// # Errors
-/// The first error that no wider window may cure.
+/// The first error that a wider window does not remove.
 pub fn solve_widening<T, E>(
     mut window: Option<usize>,
     mut solve: impl FnMut(Option<usize>) -> Result<T, E>,

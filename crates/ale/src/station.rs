@@ -1,11 +1,11 @@
-//! Where a pair stands in its mesh cycles. Theory (14).
+//! Position of a pair in its mesh cycles. Theory (14).
 
 use geometry::{GearPair, Sense, Side};
 
-/// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
+/// Position of the pair: a number of whole mesh cycles and a phase in [0, 1). So a million rotations lose no digits.
 ///
-/// At phase s the pair in the middle of the cycle stands, at mid-face, (s - 1/2) base pitches past the middle of the
-/// path of contact.
+/// At phase s the pair in the middle of the cycle is, at mid-face, (s - 1/2) base pitches past the middle of the path
+/// of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
     /// Mesh cycles since the start, in the sense of rotation.
@@ -15,14 +15,14 @@ pub struct Station {
 }
 
 impl Station {
-    /// Whole and part of a count of mesh cycles.
+    /// Splits a number of mesh cycles into whole cycles and phase.
     pub fn at_cycles(cycles: f64) -> Self {
         let whole = cycles.floor();
         Self { cycle: whole as i64, phase: (cycles - whole).min(1.0 - f64::EPSILON) }
     }
 
-    /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle of
-    /// the path of contact of the flanks on `side`.
+    /// Angle of the pinion, rad, relative to the position from which pair numbers are counted in this cycle: sign (s -
+    /// 1/2) 2 pi / z1 from the middle of the path of contact of the flanks on `side`.
     pub fn pinion_angle(&self, pair: &GearPair, side: Side, sense: Sense) -> f64 {
         let middle = pair.middle_angle(side);
         middle + sense.sign() as f64 * (self.phase - 0.5) * pair.pinion.pitch_angle()
@@ -33,7 +33,7 @@ impl Station {
         -sense.sign() * self.cycle
     }
 
-    /// Running number, in fractions, of the place midway between the pairs.
+    /// Fractional running number of the point midway between the pairs.
     pub fn centre(&self, sense: Sense) -> f64 {
         let sign = sense.sign() as f64;
         self.middle_pair(sense) as f64 - sign * (self.phase - 0.5)

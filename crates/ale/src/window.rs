@@ -4,12 +4,13 @@ use geometry::Sense;
 
 use crate::AleError;
 
-/// Teeth a pair of total contact ratio eps_gamma needs in its window: floor(eps_gamma) + 1, at least 3.
+/// Number of teeth that a pair with total contact ratio eps_gamma needs in its window: floor(eps_gamma) + 1, at least
+/// 3.
 pub fn teeth_needed(total_contact_ratio: f64) -> usize {
     (total_contact_ratio.floor() as usize + 1).max(3)
 }
 
-/// Running numbers of the kept pairs, first .. first + count - 1.
+/// Running numbers of the pairs in the window, first .. first + count - 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ToothWindow {
     first: i64,
@@ -18,10 +19,10 @@ pub struct ToothWindow {
 }
 
 impl ToothWindow {
-    /// A window of `count` pairs from running number `first` on, for gears of `teeth` teeth.
+    /// A window of `count` pairs that starts at running number `first`, for gears with `teeth` teeth.
     ///
     /// # Errors
-    /// [`AleError::TooWide`].
+    /// [`AleError::TooWide`] if a gear has fewer teeth than the window.
     pub fn new(first: i64, count: usize, teeth: [u32; 2]) -> Result<Self, AleError> {
         let fewest = teeth[0].min(teeth[1]);
         if count == 0 || count > fewest as usize {
@@ -30,7 +31,7 @@ impl ToothWindow {
         Ok(Self { first, count, teeth })
     }
 
-    /// First running number of the window whose middle is nearest to pair `centre` (fractional).
+    /// First running number of the window whose middle is nearest to the fractional running number `centre`.
     pub fn nominal_first(centre: f64, count: usize) -> i64 {
         (centre - 0.5 * (count as f64 - 1.0)).round() as i64
     }
@@ -55,18 +56,19 @@ impl ToothWindow {
         [pair.rem_euclid(i64::from(self.teeth[0])) as u32, (-pair).rem_euclid(i64::from(self.teeth[1])) as u32]
     }
 
-    /// First (lowest, counter-clockwise counted) tooth of each gear's window. The wheel's teeth run the other way.
+    /// First tooth of each gear's window: the lowest, counted counter-clockwise. On the wheel the running numbers
+    /// ascend clockwise.
     pub fn first_teeth(&self) -> [u32; 2] {
         let last = self.first + self.count as i64 - 1;
         [self.teeth_of(self.first)[0], self.teeth_of(last)[1]]
     }
 
-    /// Running numbers of the two pairs beside the window.
+    /// Running numbers of the two pairs next to the window.
     pub fn neighbours(&self) -> [i64; 2] {
         [self.first - 1, self.first + self.count as i64]
     }
 
-    /// The pair that would leave at a change in this sense.
+    /// The pair that leaves at a change in this sense of rotation.
     pub fn outgoing(&self, sense: Sense) -> i64 {
         match sense {
             // Oncoming pairs have lower numbers when the pinion turns counter-clockwise.
@@ -75,11 +77,11 @@ impl ToothWindow {
         }
     }
 
-    /// The window one tooth on, for both gears at once. `forces` (N) are the normal forces of the window's pairs,
-    /// ascending; the outgoing pair must carry none at all: contact force is exactly zero where a gap is open.
+    /// The window one tooth further, for both gears at once. `forces` (N) are the normal forces of the window's pairs,
+    /// ascending. The outgoing pair must carry no force: contact force is exactly zero where a gap is open.
     ///
     /// # Errors
-    /// [`AleError::LoadedTooth`]: it never drops a force.
+    /// [`AleError::LoadedTooth`] if the outgoing pair carries force; no force is ever dropped.
     pub fn change(&self, sense: Sense, forces: &[f64]) -> Result<Self, AleError> {
         if forces.len() != self.count {
             return Err(AleError::WrongCount { given: forces.len(), window: self.count });

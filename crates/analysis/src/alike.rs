@@ -1,13 +1,13 @@
-//! Which scenes have meshes and matrices in common.
+//! Finds scenes that have meshes and matrices in common.
 
 use scene::{Method, Model, ModificationScene, Scene};
 
-/// What scenes have in common that stand on the same reduced gears (`SharedModels`).
+/// The part of a scene that determines its reduced gears; scenes with equal parts share them (`SharedModels`).
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedGears(Scene);
 
 impl SharedGears {
-    /// Shared gears of a scene. One that shares no gears is alike to itself alone.
+    /// Shared gears of a scene. A scene that shares no gears is equal only to itself.
     pub fn of(scene: &Scene) -> Self {
         Self(if shares(scene) { kind(scene) } else { scene.clone() })
     }

@@ -1,4 +1,4 @@
-//! Reduced gears, and maps of their contact, that are kept from run to run.
+//! Stores for reduced gears, and for maps of their contact, across runs.
 
 use answer::Remark;
 use std::{fmt, sync::Arc};
@@ -6,46 +6,46 @@ use std::{fmt, sync::Arc};
 use contact_map::ContactMap;
 use reduction::{PartStore, RecordKey, ReductionRecord};
 
-/// A store of reduced gears and of maps.
+/// A store of reduced gears and of contact maps.
 ///
-/// Losing it loses time, never a result.
+/// If its content is lost, runs take longer, but results stay the same.
 pub trait GearCache: Sync {
-    /// Whether anything is kept.
+    /// Whether the store keeps anything.
     fn is_on(&self) -> bool;
 
-    /// The record of a key, with the key that it was made for; `None` when there is none. A warning says what is wrong
-    /// with one that cannot be used.
+    /// The record of a key, with the key for which it was made; `None` if there is none. A warning explains why a
+    /// record cannot be used.
     fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>);
 
-    /// Keeps a record; a warning says why it could not be done.
+    /// Stores a record; a warning explains why it could not be stored.
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark>;
 
-    /// Where parts of a gear are kept beside its record: columns of its teeth as soon as they are made, the factor of its
-    /// sector. A store need not keep them.
+    /// Store for parts of a gear beside its record: columns of its teeth as soon as they are computed, and the factor
+    /// of its sector. A store need not keep them.
     fn parts(&self, _: &RecordKey) -> Option<Arc<dyn PartStore>> {
         None
     }
 
-    /// Whether an earlier run has found the mesh of a key sound. A store need not remember.
+    /// Whether an earlier run found the mesh of a key to be valid. A store need not remember this.
     fn is_sound(&self, _: &SoundKey) -> bool {
         false
     }
 
-    /// Remembers that a mesh is sound; where that fails it is checked again.
+    /// Remembers that a mesh is valid. If this fails, the mesh is checked again.
     fn keep_sound(&self, _: &SoundKey) {}
 
-    /// The maps of a key, as [`GearCache::load`]. A store need not keep maps.
+    /// The maps of a key, as in [`GearCache::load`]. A store need not keep maps.
     fn load_maps(&self, _: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
         (None, None)
     }
 
-    /// Keeps maps, as [`GearCache::save`].
+    /// Stores maps, as in [`GearCache::save`].
     fn save_maps(&self, _: &MapKey, _: &[&ContactMap]) -> Option<Remark> {
         None
     }
 }
 
-/// What a store hands out, with the key that it was made for: who asked takes it for no other.
+/// An item of a store, with the key for which it was made, so that it cannot be used for another.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Kept<K, T> {
     key: K,
@@ -64,16 +64,18 @@ impl<K: PartialEq, T> Kept<K, T> {
     }
 }
 
-/// Version of what the numbers of a map mean and of how they come about: raised with every change of the code by which
-/// the same scene gets other maps (the test `maps_are_those_of_their_version` notices), so that nobody takes those of before.
+/// Version of the meaning of a map's numbers and of their computation. It is raised with every change of the code that
+/// gives the same scene other maps, so that older maps are not used. The test `maps_are_those_of_their_version` detects
+/// such a change.
 pub const MAP_VERSION: u32 = 3;
 
-/// Names maps: equal for equal gears in equal contact, in practice different for any others.
+/// Name of maps: equal for equal gears in equal contact, in practice different for any others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MapKey([u8; 32]);
 
 impl MapKey {
-    /// Key of the reduced gears, of [`MAP_VERSION`], and of all else that their contact depends on, in words.
+    /// Key from the keys of the reduced gears, [`MAP_VERSION`], and a text of everything else on which their contact
+    /// depends.
     pub fn new(gears: &[RecordKey], contact: &str) -> Self {
         let gears = gears.iter().map(ToString::to_string);
         let versions = format!("{} {MAP_VERSION}", env!("CARGO_PKG_VERSION"));
@@ -88,16 +90,16 @@ impl fmt::Display for MapKey {
     }
 }
 
-/// Version of the checks of a mesh: raised with every change of the code that finds another mesh sound (the test
-/// `checks_of_meshes_are_those_of_their_version` notices), so that nobody passes by checks of before.
+/// Version of the checks of a mesh. It is raised with every change of the code that changes which meshes are valid, so
+/// that older checks are not used. The test `checks_of_meshes_are_those_of_their_version` detects such a change.
 pub const SOUND_VERSION: u32 = 1;
 
-/// Names the file of a mesh and how it is read: equal for equal ones, in practice different for any others.
+/// Name of a mesh file and of the way in which it is read: equal for equal ones, in practice different for any others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SoundKey([u8; 32]);
 
 impl SoundKey {
-    /// Key of a file with these bytes (BLAKE3 in words), of [`SOUND_VERSION`], and of how it is read, in words.
+    /// Key from the content of a file (BLAKE3 as text), [`SOUND_VERSION`], and a text of how it is read.
     pub fn new(file: &str, read_as: &str) -> Self {
         let versions = format!("{} {SOUND_VERSION}", env!("CARGO_PKG_VERSION"));
         Self(of_words([versions, file.to_owned(), read_as.to_owned()]))
@@ -155,7 +157,7 @@ impl<T: GearCache + ?Sized> GearCache for &T {
     }
 }
 
-/// Keeps nothing.
+/// Cache that stores nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoCache;
 

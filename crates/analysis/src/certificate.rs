@@ -1,15 +1,15 @@
-//! What must hold of a result of a scene before its numbers count.
+//! Checks that a result of a scene must pass.
 
 pub use answer::{Check, Checks};
 use scene::Scene;
 
 use crate::AnalysisError;
 
-/// Whether every check holds.
+/// Whether all checks pass.
 ///
 /// # Errors
-/// [`AnalysisError::Certificate`]: the first check that is missed with its value and its bound, and how many there are
-/// beside it.
+/// [`AnalysisError::Certificate`]: the first failed check with its value and limit, and the number of further failed
+/// checks.
 pub fn verdict(checks: &Checks, scene: &Scene) -> Result<(), AnalysisError> {
     let Some(failed) = checks.failed() else { return Ok(()) };
     Err(AnalysisError::Certificate(failed).in_file(&scene.file))
@@ -18,13 +18,13 @@ pub fn verdict(checks: &Checks, scene: &Scene) -> Result<(), AnalysisError> {
 /// A kind of check, for `docs/outputs.md`.
 #[derive(Debug, Clone, Copy)]
 pub struct CheckKind {
-    /// Names, `<k>` for the number of a mesh.
+    /// Names of the checks; `<k>` is the number of a mesh.
     pub name: &'static str,
-    /// Bound in words.
+    /// Limit in words.
     pub bound: &'static str,
-    /// Results that it is measured of.
+    /// Results to which the check applies.
     pub of: &'static str,
-    /// Meaning of its value.
+    /// Meaning of the value.
     pub meaning: &'static str,
 }
 
@@ -38,7 +38,7 @@ const REDUCED: &str = "motions of `reduced` and `reduced+modes`";
 const GEARBOX_IN_MOTION: &str = "motions of gearboxes";
 const EXACT_IN_MOTION: &str = "motions of gearboxes in exact contact";
 
-/// All kinds of checks; a test holds their bounds against those of runs.
+/// All kinds of checks; a test compares their limits with those of runs.
 pub const CHECKS: [CheckKind; 33] = [
     kind("torque_residual", "1e-8", AT_REST, "largest relative difference of contact torque and applied torque"),
     kind(

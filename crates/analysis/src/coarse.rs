@@ -1,5 +1,5 @@
-//! How much softer a pair would be with other bodies: the same pair on coarse meshes of solid gears, run both ways.
-//! Only ratios are read off.
+//! Ratio of the compliance of a pair with other bodies, from coarse meshes of solid gears. Only ratios of the results
+//! are used.
 
 use contact::{Bulk, Method};
 use fem::{ElementOptions, Material};
@@ -52,8 +52,8 @@ impl<'a> Coarse<'a> {
             .map(|gear| Body { bore_diameter: gear.data().bore_diameter, extent: Extent::Periodic })
     }
 
-    /// Mean transmission error with bodies `b` over that with bodies `a`; `None` where one of them cannot be made or
-    /// run.
+    /// Mean transmission error with bodies `b` divided by that with bodies `a`; `None` if one of them cannot be made or
+    /// solved.
     pub fn ratio(&self, a: [Body; 2], b: [Body; 2]) -> Option<f64> {
         let (b, a) = rayon::join(|| self.mean_error(b), || self.mean_error(a));
         let ratio = b? / a?;

@@ -1,4 +1,4 @@
-//! Maps of the contact between runs: what the store knows them by, and what who waits hears while one is made.
+//! Contact maps between runs: their keys in the store, and the progress of their computation.
 
 use std::{fmt::Debug, path::PathBuf, time::Instant};
 

@@ -1,4 +1,4 @@
-//! What a document is solved with, and how that ended.
+//! Settings with which a document is solved, and how the solution ended.
 
 use mesh::Mesh;
 use scene::{Scene, gearbox::Gearbox};
@@ -7,22 +7,21 @@ use crate::{AnalysisError, GearCache, NoCache, Observer, RemarksAtRest, SharedMo
 
 /// A document that `solve` answers: a scene of one pair, or a gearbox.
 pub trait Question {
-    /// What comes out.
+    /// Type of the result.
     type Answer;
-    /// Who gets rows of a motion as they come.
+    /// Type that receives rows of a motion as they are computed.
     type Sink<'s>: ?Sized + 's;
-    /// A state that a motion goes on from, with the rows before it.
+    /// State from which a motion continues, with the preceding rows.
     type State;
 
-    /// Solves it.
+    /// Solves the document.
     ///
     /// # Errors
     /// [`AnalysisError`].
     fn answer(&self, context: Context<'_, Self>) -> Result<Ending<Self::Answer>, AnalysisError>;
 }
 
-/// What a document is solved with: who waits, gears that are reduced already, who gets rows, and which part of a motion
-/// is wanted.
+/// Settings of a solution: observer, cache of reduced gears, sink for rows, and the part of a motion that is requested.
 pub struct Context<'a, Q: Question + ?Sized> {
     pub(crate) observer: &'a mut dyn Observer,
     pub(crate) cache: &'a dyn GearCache,
@@ -36,33 +35,33 @@ pub struct Context<'a, Q: Question + ?Sized> {
 }
 
 impl<'a, Q: Question + ?Sized> Context<'a, Q> {
-    /// Context of who waits, without a cache, to the end, all rows in memory.
+    /// Context with an observer, without a cache, to the end, with all rows in memory.
     pub fn new(observer: &'a mut dyn Observer) -> Self {
         let (models, meshes, sink, from, stop_after) = (None, None, None, None, None);
         let remarks = RemarksAtRest::Collected;
         Self { observer, cache: &NoCache, models, meshes, remarks, line_lengths: true, sink, from, stop_after }
     }
 
-    /// With reduced gears from a cache, and into it.
+    /// Takes reduced gears from a cache and stores new ones there.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// With someone who gets rows and checkpoints of a motion as they come.
+    /// Passes rows and checkpoints of a motion to a sink as they are computed.
     #[must_use]
     pub fn with_sink(self, sink: &'a mut Q::Sink<'a>) -> Self {
         Self { sink: Some(sink), ..self }
     }
 
-    /// From a state of a motion on, with the rows before it.
+    /// Continues from a state of a motion, with the preceding rows.
     #[must_use]
     pub fn resume(self, from: Q::State) -> Self {
         Self { from: Some(from), ..self }
     }
 
-    /// Stops a motion when so many mesh cycles are done (of a gearbox those of its fastest mesh), settling included, and
-    /// hands out a checkpoint; `None`: at its end only.
+    /// Stops a motion after a number of mesh cycles (for a gearbox those of its fastest mesh), settling included, and
+    /// returns a checkpoint; `None`: only at its end.
     #[must_use]
     pub fn stop_after(self, cycles: Option<u64>) -> Self {
         Self { stop_after: cycles, ..self }
@@ -70,7 +69,7 @@ impl<'a, Q: Question + ?Sized> Context<'a, Q> {
 }
 
 impl<'a> Context<'a, Gearbox> {
-    /// On what earlier gearboxes have left of their gears, with their cache.
+    /// Shares gears with earlier gearboxes, with their cache.
     #[must_use]
     pub fn with_models(self, models: &'a SharedModels<'a>) -> Self {
         Self { models: Some(models), cache: models.cache(), ..self }
@@ -78,50 +77,49 @@ impl<'a> Context<'a, Gearbox> {
 }
 
 impl<'a> Context<'a, Scene> {
-    /// On what earlier scenes of its kind have left of their gears at rest, with their cache and meshes.
+    /// Shares static gears with earlier scenes of its kind, with their cache and meshes.
     #[must_use]
     pub fn with_models(self, models: &'a SharedModels<'a>) -> Self {
         Self { models: Some(models), cache: models.cache(), meshes: models.meshes(), ..self }
     }
 
-    /// With meshes of pinion and wheel in place of those of the scene, where they are given. They are checked as files
-    /// are.
+    /// Uses meshes of pinion and wheel instead of those of the scene, if given. They are checked like mesh files.
     #[must_use]
     pub fn with_meshes(self, meshes: Option<[&'a Mesh; 2]>) -> Self {
         Self { meshes, ..self }
     }
 
-    /// Whether it is found out what a user should hear of a pair at rest.
+    /// Whether remarks about a static pair are collected.
     #[must_use]
     pub fn with_remarks(self, remarks: RemarksAtRest) -> Self {
         Self { remarks, ..self }
     }
 
-    /// Whether positions at rest have the lengths of their contact lines under load, which nothing else follows from;
-    /// those of others are no numbers.
+    /// Whether static positions have the lengths of their contact lines under load, on which nothing else depends.
+    /// Otherwise they are NaN.
     #[must_use]
     pub fn with_line_lengths(self, line_lengths: bool) -> Self {
         Self { line_lengths, ..self }
     }
 }
 
-/// How a solve ended.
+/// How a solution ended.
 #[derive(Debug)]
 pub enum Ending<A> {
-    /// With its answer.
+    /// It was completed with a result.
     Finished(A),
-    /// Where the context says; the sink has a checkpoint.
+    /// It stopped where the context requested; the sink has a checkpoint.
     Stopped {
-        /// Mesh cycles done.
+        /// Number of completed mesh cycles.
         cycles: u64,
     },
 }
 
 impl<A> Ending<A> {
-    /// The answer of what was not to stop on its way.
+    /// The result of a solution that was to be completed.
     ///
     /// # Errors
-    /// [`AnalysisError::Cancelled`] where it did.
+    /// [`AnalysisError::Cancelled`] if it was not.
     pub fn finished(self) -> Result<A, AnalysisError> {
         match self {
             Self::Finished(answer) => Ok(answer),

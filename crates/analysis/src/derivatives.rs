@@ -1,4 +1,4 @@
-//! Derivatives of a run at rest by keys of its scene.
+//! Derivatives of a static run by keys of its scene.
 
 use ltca::{Sensitivities, Sensitivity, StaticModel};
 use scene::Scene;
@@ -8,13 +8,13 @@ use crate::{AnalysisError, error::solver_error, varied_scene::VariedScene};
 /// Derivatives of positions by keys.
 #[derive(Debug, Clone, Default)]
 pub struct Derivatives {
-    /// The keys.
+    /// Names of the keys.
     pub keys: Vec<String>,
-    /// Position by position, key by key.
+    /// Derivatives, position by position, key by key.
     pub rates: Vec<Vec<Sensitivity>>,
 }
 
-/// Differentiates positions by the keys that a scene names in `output.derivatives`, as they are solved.
+/// Computes derivatives at each position by the keys in `output.derivatives`, as positions are solved.
 #[derive(Debug)]
 pub struct DerivativeRecorder {
     scene: Scene,
@@ -24,10 +24,10 @@ pub struct DerivativeRecorder {
 }
 
 impl DerivativeRecorder {
-    /// Recorder of a scene as it is solved; `None` where it asks for nothing.
+    /// Recorder of a scene as solved; `None` if the scene requests no derivatives.
     ///
     /// # Errors
-    /// As of [`VariedScene::by_key`].
+    /// The errors of [`VariedScene::by_key`].
     pub fn new(scene: &Scene) -> Result<Option<Self>, AnalysisError> {
         let keys = scene.output.derivatives.clone();
         if keys.is_empty() {
@@ -38,10 +38,10 @@ impl DerivativeRecorder {
         Ok(Some(Self { scene: scene.clone(), varied, sensitivities: None, found }))
     }
 
-    /// Takes those of a position, which the model has just found.
+    /// Adds the derivatives at the position that the model has just solved.
     ///
     /// # Errors
-    /// [`AnalysisError`] where there are none.
+    /// [`AnalysisError`] if they do not exist.
     pub fn position(&mut self, model: &StaticModel) -> Result<(), AnalysisError> {
         let sensitivities = match &mut self.sensitivities {
             Some(known) => known,
@@ -56,7 +56,7 @@ impl DerivativeRecorder {
         Ok(())
     }
 
-    /// All of them.
+    /// Returns all derivatives.
     pub fn into_derivatives(self) -> Derivatives {
         self.found
     }

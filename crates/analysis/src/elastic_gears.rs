@@ -1,4 +1,4 @@
-//! From meshes to elastic gears: reduced, from the cache, or whole.
+//! From meshes to elastic gears: reduced, from the cache, or with all degrees of freedom.
 
 use answer::Remark;
 use fem::{ElementOptions, Material, Wanted};
@@ -21,28 +21,28 @@ use crate::{
     remark,
 };
 
-/// Both gears as the analysis takes them.
+/// Both gears in the form that the analysis needs.
 #[derive(Debug)]
 pub struct ElasticGears {
     /// Pinion and wheel.
     pub gears: [ElasticGear; 2],
-    /// What the cache knows them by.
+    /// Keys of the gears in the cache.
     pub keys: RecordKeys,
-    /// What was wrong with files of the cache.
+    /// Faults of files in the cache.
     pub remarks: Vec<Remark>,
 }
 
-/// What the cache knows the gears by; none where nothing is cached.
+/// Keys of the gears in the cache; `None` if nothing is cached.
 #[derive(Debug)]
 pub struct RecordKeys([Option<RecordKey>; 2]);
 
 impl RecordKeys {
-    /// Keys of pinion and wheel; `None` where nothing is kept.
+    /// Keys of pinion and wheel; `None` if nothing is cached.
     pub fn keys(&self) -> &[Option<RecordKey>; 2] {
         &self.0
     }
 
-    /// Writes what was reduced in this run; the remarks are about what could not be written.
+    /// Writes the gears reduced in this run; the remarks report write errors.
     pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<Remark> {
         let reducers = || {
             self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
@@ -56,7 +56,7 @@ impl RecordKeys {
     }
 }
 
-/// What a user hears of files of parts since the last call.
+/// Remarks about faults of stored files since the last call.
 pub fn part_faults(gears: &[ElasticGear; 2]) -> impl Iterator<Item = Remark> {
     let of = |gear: &ElasticGear| match gear {
         ElasticGear::Reduced(reducer) => reducer.part_faults(),
@@ -69,13 +69,12 @@ fn of_part(PartFault { file, what, writing }: PartFault) -> Remark {
     if writing { remark::gear_not_stored(file, what) } else { remark::gear_not_loaded(file, what) }
 }
 
-/// Both gears, side by side; the progress hears what is begun, and between the steps of the work it is asked whether the
-/// rest of it is still wanted. A gear that takes long is kept as soon as it is made: a run
-/// that is cut short need not make it again. `by_layers`: wide gears may be known by a part of their layers, for contact
-/// alone.
+/// Computes both gears in parallel. The progress receives the stages, and between steps it is asked whether the rest is
+/// still wanted. A gear that takes long is stored as soon as it is computed, so an interrupted run need not compute it
+/// again. `by_layers`: wide gears may be condensed by their layers, for contact only.
 ///
 /// # Errors
-/// [`AnalysisError`] when a mesh is not what the analysis needs.
+/// [`AnalysisError`] if a mesh is not suitable for the analysis.
 pub fn elastic_gears(
     scene: &Scene,
     pair: &GearPair,
@@ -191,7 +190,7 @@ fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::Reduction
 /// Material of pinion (0) or wheel (1).
 ///
 /// # Errors
-/// [`AnalysisError`] when it is none.
+/// [`AnalysisError`] for an invalid material.
 pub fn material(scene: &Scene, i: usize) -> Result<Material, AnalysisError> {
     let (whose, m) = (NAMES[i], scene.gears()[i].material);
     let failed = |source| AnalysisError::from(source).of_part(format!("{whose}'s material"));

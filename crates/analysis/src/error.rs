@@ -1,4 +1,4 @@
-//! Why a scene has no answer.
+//! Errors of the analysis.
 
 use std::{path::Path, sync::Arc};
 
@@ -17,56 +17,56 @@ use study::{StudyError, calculix::CalculixError};
 
 use crate::refused::{Blame, Refusal};
 
-/// Why a scene has no answer: what happened, each with the places around it where it did.
+/// A scene has no result: the cause, with the nested places where it occurred.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
-    /// What happened at a place; places nest, the widest outside.
+    /// A cause at a place; places are nested, the outermost first.
     #[error(transparent)]
     At(Box<Located<AnalysisError>>),
-    /// What keeps every value of a sweep from a result.
+    /// The common cause for which no value of a sweep has a result.
     #[error("{0}")]
     Shared(Arc<AnalysisError>),
-    /// The scene itself, with its own places.
+    /// Error of the scene itself, with its own places.
     #[error("{0}")]
     Scene(Box<SceneError>),
-    /// A mesh file cannot be read, or what was read is no gear.
+    /// A mesh file cannot be read, or its content is not a gear.
     #[error("{0}")]
     Mesh(Box<MeshError>),
-    /// A gear cannot be reduced, or has no modes or no mass; a material is none.
+    /// A gear cannot be reduced, has no modes or no mass, or a material is invalid.
     #[error("{0}")]
     Reduction(Box<ReductionError>),
-    /// The contact found no answer, or refused the question.
+    /// The contact has no solution, or its options are invalid.
     #[error("{0}")]
     Solver(Box<StaticError>),
-    /// A cheaper model cannot be made of the scene, or finds no motion.
+    /// A cheaper model cannot be made from the scene, or finds no motion.
     #[error("{0}")]
     Lumped(Box<LumpedError>),
-    /// A standard has no rating of the pair.
+    /// A standard does not cover the rating of the pair.
     #[error("{0}")]
     Rating(Box<RatingError>),
-    /// A gearbox or a pair cannot be put together, has no equilibrium, or does not move as it is asked to.
+    /// A gearbox or a pair cannot be assembled, has no equilibrium, or cannot move as requested.
     #[error("{0}")]
     Gearbox(Box<GearboxError>),
     /// No periodic motion was found.
     #[error("{0}")]
     Periodic(Box<PeriodicError<AnalysisError>>),
-    /// A record that no statistics can be made of.
+    /// No statistics can be computed from a record.
     #[error(transparent)]
     Statistics(#[from] StudyError),
-    /// Rows of a motion find no room, or cannot be read back.
+    /// Rows of a motion cannot be stored, or cannot be read back.
     #[error(transparent)]
     Rows(#[from] TableError),
-    /// A question that has no answer, in words.
+    /// A request without a result, in words.
     #[error("{0}")]
     Refused(Box<Refusal>),
-    /// A check of the result does not hold.
+    /// A check of the result failed.
     #[error("check failed: {}", .0.missed)]
     Certificate(FailedCheck),
-    /// Who waits has given up, as `Progress::is_cancelled` says.
+    /// The solution was cancelled, as `Progress::is_cancelled` tells.
     #[error("stopped before the end")]
     Cancelled,
-    /// A sink refused what it was given.
+    /// A sink returned an error.
     #[error("{0}")]
     Sink(Box<dyn std::error::Error + Send + Sync>),
 }
@@ -120,7 +120,7 @@ impl From<CalculixError> for AnalysisError {
 }
 
 impl AnalysisError {
-    /// This error at a place; who waits, who is told and room for rows have none.
+    /// This error at a place. Cancellation, errors of sinks and lack of space for rows have no place.
     #[must_use]
     pub fn at(self, place: Place) -> Self {
         match self {
@@ -141,7 +141,7 @@ impl AnalysisError {
         self.at(Place::part(name))
     }
 
-    /// Where it happened, the widest place first; the places of [`AnalysisError::Scene`] are in it.
+    /// Where it happened, the outermost place first; includes the places of [`AnalysisError::Scene`].
     pub fn places(&self) -> impl Iterator<Item = &Place> {
         let mut next = Some(self);
         std::iter::from_fn(move || {
@@ -157,12 +157,12 @@ impl AnalysisError {
         })
     }
 
-    /// The error that there is no bound of a quantity that a scene asks for.
+    /// The error that there is no bound for a quantity that a scene requests.
     pub fn without_bound(scene: &Scene, quantity: scene::Quantity) -> Self {
         in_scene(scene)(Refusal::no_bound(quantity))
     }
 
-    /// What happened, without the places around it.
+    /// The cause, without the places around it.
     pub fn what(&self) -> &Self {
         self.inner().map_or(self, Self::what)
     }
@@ -175,7 +175,7 @@ impl AnalysisError {
         }
     }
 
-    /// Who has to act on it.
+    /// Who must act on the error.
     pub fn blame(&self) -> Blame {
         let without_result = match self.what() {
             Self::Refused(refusal) => return refusal.blame,
@@ -190,7 +190,7 @@ impl AnalysisError {
         if without_result { Blame::NoResult } else { Blame::Input }
     }
 
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         match self.what() {
             Self::Scene(e) => e.hint(),
@@ -249,7 +249,7 @@ pub(crate) fn nothing_to_reduce(scene: &Scene) -> AnalysisError {
     AnalysisError::from(Refusal::input("this model reduces nothing", hint)).at(place_in(scene, &["analysis.model"]))
 }
 
-/// The solver's error with the place in the scene that it is about.
+/// The solver's error with the place in the scene that it concerns.
 pub fn solver_error(scene: &Scene, source: StaticError) -> AnalysisError {
     let keys: &[&str] = match &source {
         StaticError::Overloaded { .. } => &["operation.torque_nm"],

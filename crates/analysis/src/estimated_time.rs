@@ -1,4 +1,4 @@
-//! How long what is to come will take, and how much memory.
+//! Estimated time and memory of the remaining work.
 
 use fem::PartedFactor;
 

@@ -1,4 +1,4 @@
-//! What the writers need to know of a run beside its scene and its history.
+//! Facts about a run that the writers need in addition to its scene and history.
 
 use geometry::{GearPair, GeometrySheet};
 use scene::Scene;
@@ -66,7 +66,7 @@ described::described! {
 }
 
 impl RunInfo {
-    /// What follows from the pair and its nominal load alone.
+    /// Facts that follow from the pair and its nominal load alone.
     pub fn of_pair(scene: &Scene, pair: &GearPair) -> Self {
         let loaded = LoadedPair::of(scene, pair);
         Self {
@@ -78,10 +78,10 @@ impl RunInfo {
         }
     }
 
-    /// Whether the result holds and is as exact as was asked.
+    /// Whether the result passes its checks and meets the requested accuracy.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] of a result less exact than asked.
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] for a result that is less accurate than requested.
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
         certificate::verdict(&self.certificate, scene)?;
         self.accuracy.as_ref().map_or(Ok(()), Accuracy::verdict).map_err(in_scene(scene))

@@ -1,4 +1,4 @@
-//! Whether the flanks that a mesh names are those of its gear; where not, the commonest mistakes are tried and named.
+//! Checks that the flanks named by a mesh are those of its gear. If not, the most common mistakes are tested and named.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -42,12 +42,12 @@ impl Mistake<'_> {
 }
 
 impl NamedFlanks<'_> {
-    /// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,
-    /// and the gaps of the one would be put on the compliance of the other.
+    /// Checks that named flanks lie where this gear has its flanks. Otherwise the mesh belongs to another gear, and the
+    /// gaps of one gear would be combined with the compliance of the other.
     ///
     /// # Errors
-    /// [`AnalysisError::Refused`] with a node that is off, and the mistake that explains all of them, where there is
-    /// one.
+    /// [`AnalysisError::Refused`] with a node that is off the flank, and the mistake that explains all such nodes, if
+    /// there is one.
     pub fn lie_on_the_gear(&self) -> Result<(), AnalysisError> {
         let Self { file, whose, found, exact, .. } = *self;
         let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
@@ -88,7 +88,7 @@ impl NamedFlanks<'_> {
         Ok(())
     }
 
-    /// Named flanks must be there as a whole: contact sees none where the mesh has no face to carry it.
+    /// Checks that named flanks are complete: contact ignores places where the mesh has no face to carry it.
     ///
     /// ```text
     /// A = b r_b (u_a^2 - u_f^2) / (2 cos b_b)
@@ -96,7 +96,7 @@ impl NamedFlanks<'_> {
     /// Area of a flank from the root form circle to the tip, mm^2.
     ///
     /// # Errors
-    /// [`AnalysisError::Refused`]: a group that is not there, or covers a part of its flank.
+    /// [`AnalysisError::Refused`] for a missing group, or one that covers only part of its flank.
     pub fn are_whole(&self) -> Result<(), AnalysisError> {
         let Self { file, whose, found, exact, names } = *self;
         let profile = exact.profile();

@@ -1,4 +1,4 @@
-//! Whether the flanks that a mesh names reach as far as the contact of the pair does.
+//! Checks that the flanks named by a mesh reach as far as the contact of the pair.
 
 use geometry::{GearPair, Side};
 use mesh::DEFAULT_TOLERANCE_MODULES;
@@ -9,16 +9,16 @@ use crate::{AnalysisError, error::mismatch, flank_checks::NamedFlanks};
 const LARGEST_LACK: f64 = 0.1;
 
 impl NamedFlanks<'_> {
-    /// Named flanks must reach as far as contact does, from the start of the active profile to its end and over the common
-    /// face: contact sees nothing beyond the last node. What is said of the flank that lacks most, where it is less than
-    /// [`LARGEST_LACK`] of path or face.
+    /// Checks that named flanks reach from the start of the active profile to its end and over the common face, because
+    /// contact ignores everything beyond the last node. Returns a remark about the flank with the largest gap, if it is
+    /// less than [`LARGEST_LACK`] of path or face.
     ///
     /// ```text
     /// d_Nf = 2 sqrt(r_b^2 + xi_A^2),   d_Na = 2 sqrt(r_b^2 + xi_E^2)      xi: path of contact, from the gear's own tangent point
     /// ```
     ///
     /// # Errors
-    /// [`AnalysisError::Refused`] where it is more.
+    /// [`AnalysisError::Refused`] if it is larger.
     pub fn reach(&self, pair: &GearPair) -> Result<Option<answer::Remark>, AnalysisError> {
         let Self { found, exact, .. } = *self;
         let [start, end] = pair.path_of_contact();

@@ -3,7 +3,7 @@
 use ltca::StaticModel;
 use reduction::{ElasticGear, GearReducer};
 
-/// The reducer of a gear; `None` for one with all its degrees of freedom.
+/// The reducer of a gear; `None` for a gear with all its degrees of freedom.
 pub fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
     match gear {
         ElasticGear::Reduced(r) => Some(r),

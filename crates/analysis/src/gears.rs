@@ -1,4 +1,4 @@
-//! What a user hears of the exact pair of a scene: remarks and derived geometry.
+//! Remarks about the nominal pair of a scene, and its derived geometry.
 
 use crate::remark;
 use geometry::GearPair;
@@ -33,7 +33,7 @@ described::described! {
     }
 }
 
-/// What a user should know of a pair that runs.
+/// Remarks about a pair that runs.
 pub fn remarks(pair: &GearPair) -> Vec<answer::Remark> {
     let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];
     let undercut = gears.into_iter().filter(|(_, gear)| gear.profile().is_undercut());
@@ -57,7 +57,7 @@ pub fn remarks(pair: &GearPair) -> Vec<answer::Remark> {
     told
 }
 
-/// What the summary says of a pair.
+/// Geometry of a pair for the summary.
 pub fn geometry_facts(pair: &GearPair) -> GeometryFacts {
     GeometryFacts {
         centre_distance_mm: pair.centre_distance(),

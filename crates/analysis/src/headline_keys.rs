@@ -1,4 +1,4 @@
-//! Which keys the headline of a scene will have, before any work.
+//! Keys of a scene's headline before the solution.
 
 use described::Key;
 use scene::Scene;
@@ -9,7 +9,7 @@ use crate::{
     results::StaticHeadline,
 };
 
-/// Keys of the headline of a scene's `summary.json`, those that a run may leave out included.
+/// Keys of the headline of a scene's `summary.json`, including those that a run may omit.
 pub fn headline_keys(scene: &Scene) -> &'static [Key] {
     match &scene.motion {
         None => StaticHeadline::KEYS,

@@ -1,4 +1,4 @@
-//! A scene in time, solved by the analysis that it asks for, without a file.
+//! A scene in time, solved by the analysis that it requests, without a file.
 
 use std::sync::Arc;
 
@@ -22,16 +22,16 @@ use crate::{
     },
 };
 
-/// A scene in time with its answer.
+/// A scene in time with its result.
 #[derive(Debug)]
 pub struct SolvedInTime {
-    /// The scene as it was asked for; of `model = "auto"` with the model that was taken.
+    /// The scene as given; for `model = "auto"` with the chosen model.
     pub scene: Scene,
-    /// The answer.
+    /// Result of the scene.
     pub answer: TimeAnswer,
 }
 
-/// The answer to a scene in time, one variant for each analysis.
+/// Result of a scene in time, one variant per analysis.
 #[derive(Debug)]
 pub enum TimeAnswer {
     /// One motion of reduced gears.
@@ -42,7 +42,7 @@ pub enum TimeAnswer {
     Speeds(Box<SweepResult>),
     /// Steady states of a reduced-order model over speed.
     LumpedSpeeds {
-        /// The sweep that was asked for.
+        /// The sweep that was requested.
         options: Box<SweepOptions>,
         /// Points of the sweep.
         found: Box<BifurcationAnalysis>,
@@ -74,21 +74,22 @@ impl SolvedInTime {
         of_any!(&self.answer, result => serde_json::to_value(&result.headline).unwrap_or_default())
     }
 
-    /// What the answer was made of, with its certificate.
+    /// Facts about the result, with its certificate.
     pub fn facts(&self) -> &RunInfo {
         of_any!(&self.answer, result => &result.facts)
     }
 
-    /// What a user should hear.
+    /// Remarks for the user.
     pub fn remarks(&self) -> &[answer::Remark] {
         of_any!(&self.answer, result => &result.remarks)
     }
 
-    /// Whether the answer holds and is as exact as was asked. The certificate of a sweep of a reduced-order
-    /// model has the worst of all values that came out.
+    /// Whether the result passes its checks and meets the requested accuracy. The certificate of a sweep of a
+    /// reduced-order model has the worst values of all points with a result.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] of a result less exact than asked, or without a speed.
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] for a result that is less accurate than requested, or
+    /// without any speed.
     pub fn verdict(&self) -> Result<(), AnalysisError> {
         match &self.answer {
             TimeAnswer::Speeds(result) => result.verdict(&self.scene),
@@ -97,7 +98,8 @@ impl SolvedInTime {
     }
 }
 
-/// Whether a scene asks for one motion of reduced gears as they are: what has checkpoints, and takes meshes in memory.
+/// Whether a scene requests one motion of reduced gears, the only kind that has checkpoints and accepts meshes in
+/// memory.
 pub fn is_one_motion(scene: &Scene) -> bool {
     let one =
         scene.motion.as_ref().is_some_and(|m| m.sweep.is_none() && m.continuation.is_none() && m.basins.is_none());
@@ -117,11 +119,12 @@ pub(crate) struct InTime<'a> {
 }
 
 impl InTime<'_> {
-    /// Solves a scene of any model and any `motion.run`; rows of reduced gears go into `sink` as they come.
+    /// Solves a scene of any model and any `motion.run`; rows of reduced gears are passed to `sink` as they are
+    /// computed.
     ///
     /// # Errors
-    /// [`AnalysisError`]; [`AnalysisError::Refused`] for a scene at rest, and where checkpoints or meshes in memory
-    /// go with what is no [single motion](is_one_motion).
+    /// [`AnalysisError`]; [`AnalysisError::Refused`] for a static scene, and if checkpoints or meshes in memory are
+    /// used for anything but a [single motion](is_one_motion).
     pub fn solve(
         self,
         scene: &Scene,

@@ -1,4 +1,4 @@
-//! What every analysis begins with: the scene as it is solved, its motion, its meshes.
+//! Common start of all analyses: the scene as it is solved, its motion, its meshes.
 
 use geometry::GearPair;
 use mesh::Mesh;

@@ -1,18 +1,18 @@
-//! Who waits for a scene may lose interest in it.
+//! Cancellation of a scene whose result is no longer wanted.
 
 use fem::Wanted;
 
-/// Whether what a scene at rest needs is still wanted. Both are asked often, by several threads.
+/// Whether the parts of a static scene are still wanted. Both functions are called often, by several threads.
 #[derive(Clone, Copy)]
 pub struct Interest<'a> {
-    /// Whether the reduced gears are wanted, asked between the steps of a reduction.
+    /// Whether the reduced gears are wanted; called between the steps of a reduction.
     pub gears: Wanted<'a>,
-    /// Whether the positions are wanted, asked after each of them.
+    /// Whether the positions are wanted; called after each of them.
     pub positions: Wanted<'a>,
 }
 
 impl Interest<'_> {
-    /// All is wanted, to the end.
+    /// Everything is wanted, to the end.
     pub const LASTING: Interest<'static> = Interest { gears: &|| true, positions: &|| true };
 }
 

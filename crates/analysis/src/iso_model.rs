@@ -1,4 +1,5 @@
-//! The model `iso`: ISO 6336-1 stiffness, load spread evenly over the analytic contact lines. No mesh. Theory (24).
+//! The model `iso`: ISO 6336-1 stiffness, load distributed evenly over the analytic contact lines. No mesh. Theory
+//! (24).
 
 use crate::remark;
 use std::f64::consts::PI;
@@ -37,7 +38,7 @@ described::described! {
 }
 
 impl IsoFacts {
-    /// With what the summary says of any pair.
+    /// The facts that the summary has for any pair.
     pub fn of_run(&self, scene: &Scene, pair: &GearPair) -> RunInfo {
         RunInfo { model: keyed(self), ..RunInfo::of_pair(scene, pair) }
     }

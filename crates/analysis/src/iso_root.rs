@@ -1,4 +1,4 @@
-//! The nominal tooth root stress of ISO 6336-3 of a scene's pair, to stand beside what finite elements say.
+//! The nominal tooth root stress of ISO 6336-3 for a scene's pair, for comparison with finite elements.
 
 use geometry::Gear;
 use lumped::{

@@ -1,4 +1,4 @@
-//! Wide gears that are condensed by their layers: when, and by how many of them.
+//! Wide gears that are condensed by their layers: when this is used, and the number of layers.
 
 use geometry::{Gear, GearData};
 use mesh::{BoreCoupling, Extent, GroupNames, MeshedGear, StructuredOptions, generate};

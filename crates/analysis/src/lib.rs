@@ -1,8 +1,8 @@
-//! What are the answers to a scene?
+//! Solves a scene or a gearbox and returns typed results.
 //!
-//! A checked [`scene::Scene`], and meshes in memory if the caller has them, go in; typed results come out, row by row
-//! through a sink. Who waits hears of the phases through an [`Observer`]; reduced gears are kept in a [`GearCache`].
-//! Nothing here reads a command line, writes a file or prints.
+//! The input is a checked [`scene::Scene`], and meshes in memory if the caller has them. The output are typed results,
+//! passed row by row to a sink. An [`Observer`] receives the progress of the phases. Reduced gears are stored in a
+//! [`GearCache`]. This crate does not read a command line, write files or print.
 //!
 //! ```
 //! use analysis::StaticAnalysis;
@@ -21,9 +21,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`solve`] answers every document, a scene of any kind or a gearbox, with what its [`Context`] says. Whoever knows the
-//! kind asks for more of it: [`StaticAnalysis`] solves the pair at rest, [`motion::MotionAnalysis`] moves it with all of its teeth, [`lumped::LumpedAnalysis`] by a model with few coordinates,
-//! [`lumped::KeySweep`] such a model at many values of a key. [`accuracy_chart::AccuracyChart`] compares them all.
+//! [`solve`] answers every document, a scene of any kind or a gearbox, with the settings of its [`Context`]. For a
+//! known kind of scene there are types with more options: [`StaticAnalysis`] solves the pair in static equilibrium,
+//! [`motion::MotionAnalysis`] its motion with all teeth, [`lumped::LumpedAnalysis`] its motion with a lumped model,
+//! [`lumped::KeySweep`] such a model at many values of a key. [`accuracy_chart::AccuracyChart`] compares all models.
 
 pub mod accuracy;
 pub mod accuracy_chart;

@@ -1,4 +1,4 @@
-//! Loads too light for places of flanks to have digits: refused before the work.
+//! Loads too light for the round-off of flank positions; they are rejected before the solution.
 
 use geometry::GearPair;
 use ltca::{GUESSED_LINE_STIFFNESS, round_off_of_places};

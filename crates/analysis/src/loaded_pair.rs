@@ -1,4 +1,4 @@
-//! A pair under its torque in the units of the solvers: what closed forms take of a scene.
+//! A pair under its torque in the units of the solvers: the inputs of closed-form formulas.
 
 use contact::line::hertz;
 use geometry::{Driver, GearPair, Sense, Side};
@@ -35,22 +35,22 @@ impl<'a> LoadedPair<'a> {
         }
     }
 
-    /// The side of the pinion's teeth that the torque presses.
+    /// The side of the pinion's teeth that the torque loads.
     pub fn side(&self) -> Side {
         self.driver.loaded_side(self.sense)
     }
 
-    /// Base radius of the driven gear, mm, without the sign of a ring.
+    /// Base radius of the driven gear, mm, positive also for a ring.
     pub fn driven_base_radius(&self) -> f64 {
         [&self.pair.pinion, &self.pair.wheel][self.driver.driven()].base_radius().abs()
     }
 
-    /// F_bt, N: torque on the driven gear over its base radius.
+    /// Force F_bt, N: torque on the driven gear divided by its base radius.
     pub fn base_force(&self) -> f64 {
         self.torque / self.driven_base_radius()
     }
 
-    /// F_t at the reference circle of the pinion, N.
+    /// Force F_t at the reference circle of the pinion, N.
     pub fn tangential_force(&self) -> f64 {
         self.base_force() * self.pair.pinion.transverse_pressure_angle().cos()
     }
@@ -65,7 +65,7 @@ impl<'a> LoadedPair<'a> {
         self.elasticity.map(|(_, poisson)| poisson)
     }
 
-    /// E* of both materials, MPa: `1/E* = sum (1 - nu^2)/E`.
+    /// Effective modulus E* of both materials, MPa: `1/E* = sum (1 - nu^2)/E`.
     pub fn effective_modulus(&self) -> f64 {
         hertz::effective_modulus(self.elasticity)
     }
@@ -78,7 +78,7 @@ impl<'a> LoadedPair<'a> {
     /// Stiffness of the pair after ISO 6336-1.
     ///
     /// # Errors
-    /// [`LumpedError`] where the standard does not hold.
+    /// [`LumpedError`] if the standard does not cover the pair.
     pub fn iso_stiffness(&self) -> Result<IsoStiffness, LumpedError> {
         let gears = [self.pair.pinion.data(), self.pair.wheel.data()];
         stiffness(&IsoPair {

@@ -1,4 +1,4 @@
-//! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
+//! Meshes of a scene: read from a file or generated, checked, with the parts of the gear found.
 
 use crate::remark;
 use answer::Remark;
@@ -26,16 +26,16 @@ pub(crate) const BUILT_IN: &str = "built-in mesher";
 pub struct SceneMesh {
     /// The mesh with bore and flanks.
     pub gear: MeshedGear,
-    /// What the summary says of it.
+    /// The corresponding entries of the summary.
     pub facts: MeshFacts,
-    /// What the user should know of it.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
 /// The meshes of pinion and wheel.
 ///
 /// # Errors
-/// As [`gear_mesh`].
+/// The errors of [`gear_mesh`].
 pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
     known_pair_meshes(scene, pair, &NoCache)
 }
@@ -57,8 +57,8 @@ pub(crate) fn known_pair_meshes(
 /// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.
 ///
 /// # Errors
-/// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh
-/// of another gear; when the built-in mesher cannot make the one asked for.
+/// [`AnalysisError`] if the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh
+/// of another gear, or if the built-in mesher cannot make the requested mesh.
 pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
     known_gear_mesh(scene, whose, (gear, exact), &NoCache)
 }
@@ -96,11 +96,10 @@ fn known_gear_mesh(
     }
 }
 
-/// A mesh that the caller brings, checked against its gear; `names` are those of its file in messages and in the
-/// summary.
+/// A mesh from the caller, checked against its gear; `names` are used for its file in messages and in the summary.
 ///
 /// # Errors
-/// As [`gear_mesh`].
+/// The errors of [`gear_mesh`].
 pub fn checked_mesh(
     scene: &Scene,
     whose: &str,
@@ -142,10 +141,10 @@ fn with_checks(
     Ok((SceneMesh { gear, facts, remarks }, is_sound))
 }
 
-/// The mesh that the built-in mesher makes of one gear.
+/// The mesh of one gear by the built-in mesher.
 ///
 /// # Errors
-/// [`AnalysisError`] when the gear cannot be meshed with these numbers of elements.
+/// [`AnalysisError`] if the gear cannot be meshed with these numbers of elements.
 pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<Mesh, AnalysisError> {
     generated_with(scene, whose, exact, &options_of(gear))
 }

@@ -1,5 +1,5 @@
-//! Nominal pressure of the flanks: Hertz at the inner points of single contact and at the pitch point, and what ISO
-//! 6336-2 says.
+//! Nominal flank pressure: Hertz at the inner points of single contact and at the pitch point, and according to ISO
+//! 6336-2.
 
 use contact::line::hertz;
 use geometry::{GearPair, Side};

@@ -35,7 +35,8 @@ use crate::{
     statics::ReducedFacts,
 };
 
-/// Every object that an analysis hands on, with its keys. A name says what the object is of where several objects have one key: `headline, a pair at rest`.
+/// Every object of an analysis result, with its keys. If several objects have the same key, the name tells to which
+/// result the object belongs: `headline, a pair at rest`.
 pub fn objects() -> Vec<(&'static str, Vec<Key>)> {
     let of = |name: &'static str, keys: &[Key]| (name, keys.to_vec());
     vec![

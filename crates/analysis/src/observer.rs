@@ -1,4 +1,4 @@
-//! Who hears what an analysis is doing.
+//! Observer of an analysis and its phases.
 
 use std::sync::Arc;
 
@@ -6,60 +6,60 @@ use answer::Cost;
 
 use crate::AnalysisError;
 
-/// How much work a phase has, as far as that is known beforehand.
+/// Amount of work of a phase, as far as it is known in advance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PhaseWork {
-    /// Not known.
+    /// Unknown amount.
     Unknown,
-    /// About so many seconds.
+    /// About this number of seconds.
     Seconds(f64),
-    /// So many steps, each told by [`Progress::tick`].
+    /// This number of steps, each reported by [`Progress::tick`].
     Steps(u64),
-    /// So many steps at the most: a search that ends when it has found what it looks for.
+    /// At most this number of steps: a search that ends when it has succeeded.
     AtMost(u64),
 }
 
-/// The progress of a running phase; threads share it.
+/// Progress of a running phase; threads share it.
 pub trait Progress: Send + Sync {
-    /// One more step is done.
+    /// Called when one more step is done.
     fn tick(&self);
 
-    /// A word beside the bar.
+    /// Shows a message beside the progress bar.
     fn say(&self, message: String);
 
-    /// Whether who waits has given up: the work ends where it is asked next, with [`AnalysisError::Cancelled`].
+    /// Whether the work is cancelled. It then ends at the next check, with [`AnalysisError::Cancelled`].
     fn is_cancelled(&self) -> bool {
         false
     }
 }
 
-/// Ends work that nobody waits for any more.
+/// Returns an error if the work is cancelled.
 ///
 /// # Errors
-/// [`AnalysisError::Cancelled`].
+/// [`AnalysisError::Cancelled`] if it is.
 pub fn unless_cancelled(progress: &dyn Progress) -> Result<(), AnalysisError> {
     if progress.is_cancelled() { Err(AnalysisError::Cancelled) } else { Ok(()) }
 }
 
-/// Hears of the phases of an analysis, one after the other.
+/// Receives the phases of an analysis, one after the other.
 pub trait Observer {
-    /// A phase begins.
+    /// Called when a phase begins.
     fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress>;
 
-    /// The phase that began last is over.
+    /// Called when the last phase ends.
     fn end(&mut self);
 
-    /// What those who wait should hear before the end.
+    /// Called with messages that should be shown before the end.
     fn note(&mut self, _message: String) {}
 }
 
-/// Hears of the phases, and knows what they cost.
+/// An observer that also records the cost of the phases.
 pub trait Recorder: Observer {
     /// Cost of all phases so far.
     fn cost(&self) -> Cost;
 }
 
-/// Hears nothing.
+/// Observer that does nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoObserver;
 
@@ -77,7 +77,7 @@ impl Progress for NoObserver {
     fn say(&self, _: String) {}
 }
 
-/// Does the work of a phase between its beginning and its end.
+/// Runs the work of a phase between its beginning and its end.
 pub fn run_phase<T>(
     observer: &mut dyn Observer,
     phase: &str,

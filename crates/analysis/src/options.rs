@@ -1,4 +1,4 @@
-//! Words of a scene in the units and terms of the solvers.
+//! Settings of a scene in the units and types of the solvers.
 
 use contact::{Misalignment, Offset, complementarity::Law, flank::GapSource};
 use geometry::GearPair;
@@ -6,7 +6,7 @@ use ltca::StaticOptions;
 
 use scene::{Flanks, Gap, Method, Scene};
 
-/// What a scene asks of the analysis.
+/// Options of the static analysis of a scene.
 pub fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     let defaults = StaticOptions::new(scene.operation.torque(), pair);
     let [deviation, inclination, in_plane_of_action, across_plane_of_action] = scene.pair.misalignment.in_mm();

@@ -1,4 +1,4 @@
-//! Whether a pair at rest will hold: the standard's rating of a scene that asks for it.
+//! Rating of a static pair by the standard, if its scene requests it.
 
 use geometry::{FlankTolerances, Gear, GearPair};
 use ltca::StaticHistory;
@@ -132,8 +132,7 @@ impl LocalRating {
 }
 
 impl RatingHeadline {
-    /// Headline of a solved pair; `None` where the scene asks for none, or where no load factor over the face was
-    /// found.
+    /// Headline of a solved pair; `None` if the scene requests no rating, or if no face load factor was found.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
         let pair = scene.gear_pair().ok()?;
         // What the formulas refuse was refused before the work.

@@ -1,4 +1,4 @@
-//! Pieces of work side by side, each with threads of its own.
+//! Runs pieces of work in parallel, each with its own threads.
 
 use std::sync::{
     Mutex, PoisonError,
@@ -7,11 +7,11 @@ use std::sync::{
 
 use rayon::ThreadPoolBuilder;
 
-/// Results of `run(0)` .. `run(count - 1)`, in their order.
+/// Results of `run(0)` .. `run(count - 1)`, in order.
 ///
-/// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The
-/// threads of a piece are its own, so that none waits for, or is timed with, the work of another. Results do not depend
-/// on their number where those of `run` do not.
+/// As many pieces run at once as there are threads, each with its share of them. A motion is serial, so cores are used
+/// for cases. Each piece has its own threads, so none waits for the work of another or is timed with it. Results do not
+/// depend on the number of threads if those of `run` do not.
 pub fn parallel_map<T: Send>(count: usize, run: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = rayon::current_num_threads();
     let workers = threads.min(count).max(1);

@@ -1,4 +1,4 @@
-//! What is read off the rows of the cases of a study.
+//! Evaluates the rows of a study's cases.
 
 use scene::{
     Scene,
@@ -11,44 +11,44 @@ use crate::{
     remark::{self, Remark},
 };
 
-/// What a case left behind.
+/// Stored results of a case.
 #[derive(Debug, Clone)]
 pub struct CaseRecord {
-    /// Rows of the case, by the names of their columns.
+    /// Rows of the case as named columns.
     pub rows: Columns,
     /// Geometry of the pair.
     pub geometry: GeometryFacts,
 }
 
-/// Why a case has no result.
+/// Reason why a case has no result.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct CaseFailure {
-    /// One line: what, where, what was expected.
+    /// One line: the error, its place, and what was expected.
     pub message: String,
     /// The line of a file that is meant, with a mark below it.
     pub excerpt: Option<String>,
-    /// What to do next.
+    /// Hint: what to do next.
     pub hint: Option<String>,
-    /// Whether the input is fine and yet no result came out.
+    /// Whether the input is valid but no result was found.
     pub is_without_result: bool,
 }
 
-/// A case's record, or why it has none.
+/// The stored results of a case, or the reason why there are none.
 pub type CaseOutcome<'a> = Result<&'a CaseRecord, &'a CaseFailure>;
 
-/// Everything that tables and figures of a study are made of, but for the rows themselves.
+/// All data for tables and figures of a study, except the rows themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Findings {
-    /// Case by case, in the order of the file: its numbers, or why it has none.
+    /// Values of each case in the order of the file, or the reason why it has none.
     pub cases: Vec<Result<CaseFindings, CaseFailure>>,
-    /// Pairs of columns of which one may follow the other.
+    /// Pairs of columns whose correlation is given.
     pub followers: Vec<Follower>,
-    /// What could not be read off rows that are there.
+    /// Remarks about values that could not be computed from existing rows.
     pub remarks: Vec<Remark>,
 }
 
-/// Numbers of one case.
+/// Values of one case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseFindings {
     /// Contact ratios: transverse, overlap, total.
@@ -57,15 +57,15 @@ pub struct CaseFindings {
     pub quantities: Vec<f64>,
 }
 
-/// How nearly one column follows another.
+/// Correlation of two columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Follower {
-    /// The one.
+    /// Name of the first column.
     pub column: String,
-    /// The other.
+    /// Name of the second column.
     pub beside: String,
-    /// Pearson's coefficient over all rows, case by case; `None` where a column does not vary, and of a case without
-    /// a result.
+    /// Pearson's coefficient over all rows, case by case; `None` if a column does not vary, and for a case without a
+    /// result.
     pub correlation: Vec<Option<f64>>,
 }
 
@@ -77,23 +77,23 @@ impl Follower {
 }
 
 impl Findings {
-    /// Why a case has no result; `None` where it has one.
+    /// Reason why a case has no result; `None` if it has one.
     pub fn reason(&self, case: usize) -> Option<&str> {
         self.cases[case].as_ref().err().map(|e| e.message.as_str())
     }
 
-    /// Labels of cases without a result.
+    /// Labels of the cases without a result.
     pub fn without_result<'a>(&'a self, study: &'a Study) -> Vec<&'a str> {
         let failed = study.cases.iter().zip(&self.cases).filter(|(_, found)| found.is_err());
         failed.map(|(case, _)| case.label.as_str()).collect()
     }
 }
 
-/// Reads all numbers of a study off the rows of its cases. A case that did not come to a result, or has not the
-/// columns, stands with its reason.
+/// Computes all values of a study from the rows of its cases. A case without a result, or without the columns, is
+/// listed with the reason.
 ///
 /// # Errors
-/// The first complaint, where no case has a result.
+/// The first error, if no case has a result.
 pub fn findings(study: &Study, runs: &[CaseOutcome<'_>]) -> Result<Findings, CaseFailure> {
     let cases: Vec<_> = runs
         .iter()
@@ -174,7 +174,7 @@ fn rows_per_cycle(scene: &Scene) -> usize {
     scene.motion.as_ref().map_or(scene.analysis.positions_per_cycle, |m| m.steps_per_mesh_cycle) as usize
 }
 
-/// The last mesh cycles of a case's rows; all of them where none are given.
+/// The last mesh cycles of a case's rows; all of them if no number is given.
 pub fn last_cycles(scene: &Scene, rows: &Columns, cycles: Option<u32>) -> Columns {
     let all = rows.len();
     rows.last(cycles.map_or(all, |n| (n as usize).saturating_mul(rows_per_cycle(scene)).min(all)))

@@ -1,4 +1,4 @@
-//! Pairs whose gears are reduced already: cases of one plan that differ in shafts, bearings and flanks have them in common.
+//! Pairs whose gears are already reduced, shared by cases of one plan that differ in shafts, bearings and flanks.
 
 use std::sync::{
     Arc, Mutex, PoisonError,
@@ -35,14 +35,14 @@ pub(crate) struct ReducedPair {
 }
 
 impl ReducedPair {
-    /// What a store knows maps of the contact of these gears by; `None` where it knows the gears by nothing. `contact`: all
-    /// else that the contact depends on, in words.
+    /// Key of the contact maps of these gears in a store; `None` if the gears have no keys. `contact` is a text of
+    /// everything else on which the contact depends.
     pub fn map_key(&self, contact: &str) -> Option<MapKey> {
         let keys: Option<Vec<_>> = self.keys.keys().iter().copied().collect();
         keys.map(|keys| MapKey::new(&keys, contact))
     }
 
-    /// Keeps the gears for later runs, once; what could not be written.
+    /// Stores the gears for later runs, once; returns remarks about write errors.
     pub fn save(&self, cache: &dyn GearCache) -> Vec<Remark> {
         if !cache.is_on() || self.saved.swap(true, Ordering::Relaxed) {
             return Vec::new();
@@ -63,10 +63,10 @@ struct Known {
 pub(crate) struct ReducedPairs(Mutex<Vec<Known>>);
 
 impl ReducedPairs {
-    /// The pair of a scene with its gears reduced; what is shared changes no bit of a result.
+    /// The pair of a scene with its gears reduced. Sharing does not change any bit of a result.
     ///
     /// # Errors
-    /// [`AnalysisError`] when a mesh is not what the analysis needs; [`AnalysisError::Cancelled`].
+    /// [`AnalysisError`] if a mesh is not suitable for the analysis; [`AnalysisError::Cancelled`].
     pub fn of(
         &self,
         scene: &Scene,

@@ -1,4 +1,4 @@
-//! Reduction of gears by itself: into the cache, and what it took.
+//! Reduces gears without an analysis: stores them in the cache and reports the cost.
 
 use answer::Remark;
 use fem::{ElementOptions, Material};
@@ -19,40 +19,40 @@ use crate::{
     run_phase, solver_error,
 };
 
-/// What the reduction of one gear came to.
+/// Result of the reduction of one gear.
 #[derive(Debug, Clone, Serialize)]
 pub struct ReducedRow {
-    /// `pinion`, `wheel`, or the mesh file.
+    /// Name of the gear: `pinion`, `wheel`, or the mesh file.
     pub gear: String,
-    /// `cyclic sector` or `general`.
+    /// Method of reduction: `cyclic sector` or `general`.
     pub way: &'static str,
-    /// Whether the record was there already.
+    /// Whether the record already existed.
     pub from_cache: bool,
     /// Free degrees of freedom of the gear.
     pub dof_before: usize,
-    /// Coordinates of a window.
+    /// Number of coordinates of a window.
     pub coordinates: usize,
-    /// Teeth of a window.
+    /// Number of teeth of a window.
     pub window_teeth: usize,
-    /// File of the record, where the caller keeps one.
+    /// File of the record, if the caller stores one.
     pub file: Option<String>,
 }
 
 /// Both gears of a scene, reduced.
 #[derive(Debug)]
 pub struct ReducedScene {
-    /// Pinion and wheel.
+    /// Rows for pinion and wheel.
     pub rows: Vec<ReducedRow>,
-    /// What the cache knows them by.
+    /// Keys of the gears in the cache.
     pub keys: RecordKeys,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
-/// Reduces both gears of a scene for their first window, as a run does, and keeps the records in `cache`.
+/// Reduces both gears of a scene for their first window, as a run does, and stores the records in `cache`.
 ///
 /// # Errors
-/// [`AnalysisError::Refused`] when the scene's model reduces nothing; those of a run.
+/// [`AnalysisError::Refused`] if the scene's model reduces no gears; the errors of a run.
 pub fn reduce_scene(
     scene: &Scene,
     observer: &mut dyn Observer,
@@ -94,12 +94,11 @@ fn row(gear: String, of: &GearReducer, window: &Window) -> ReducedRow {
     }
 }
 
-/// Reduces the gear of a mesh file, whose parts have names, to a window of `window` teeth with both flanks; nothing is
-/// kept: a record belongs to the data of a gear, which a scene has.
+/// Reduces the gear of a mesh file with named parts to a window of `window` teeth with both flanks. Nothing is stored,
+/// because a record belongs to the data of a gear, which only a scene has.
 ///
 /// # Errors
-/// [`AnalysisError::Refused`] when the mesh has not so many teeth, [`AnalysisError::Reduction`] when it is not what a
-/// gear needs.
+/// [`AnalysisError::Refused`] if the mesh has fewer teeth, [`AnalysisError::Reduction`] if it is not suitable.
 pub fn reduce_mesh(
     name: &str,
     gear: MeshedGear,

@@ -1,25 +1,25 @@
-//! What an analysis says of a question that it has no answer to.
+//! Requests to which an analysis has no result.
 
-/// Who has to act on it.
+/// Who must act on an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Blame {
-    /// The input is wrong.
+    /// The user: the input is wrong.
     Input,
-    /// The input is fine, and no result came out or one that does not hold.
+    /// The input is valid, but there is no result, or one that fails its checks.
     NoResult,
-    /// The result is there, less exact than was asked.
+    /// There is a result, but it is less accurate than requested.
     Inexact,
 }
 
-/// A question without an answer, in words; where it happened stands around it.
+/// A request without a result, in words; its places are in the enclosing errors.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{what}")]
 pub struct Refusal {
-    /// What is wrong, with its numbers.
+    /// What is wrong, with the values.
     pub what: String,
-    /// What to do next.
+    /// Hint: what to do next.
     pub hint: Option<String>,
-    /// Who has to act on it.
+    /// Who must act on it.
     pub blame: Blame,
 }
 

@@ -1,7 +1,7 @@
-//! The table of remarks: every sentence that results of this crate, and its stores, say beside their numbers.
+//! The table of remarks: all sentences that accompany the results of this crate and its stores.
 //!
-//! A row is a code, its values with their units, the sentence, and what to do (empty: nothing). `docs/remarks.md` is made
-//! of it.
+//! A row has a code, values with their units, the sentence, and an action (empty: none). `docs/remarks.md` is generated
+//! from it.
 
 pub use answer::Remark;
 

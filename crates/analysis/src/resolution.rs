@@ -1,4 +1,4 @@
-//! How many slices and face elements a scene has: chosen where it says nothing, judged where it does.
+//! Numbers of slices and face elements of a scene: chosen if it does not give them, judged if it does.
 
 use crate::remark;
 use answer::Remark;
@@ -45,8 +45,8 @@ fn is_sliced(scene: &Scene) -> bool {
         && scene.contact.slices.is_some()
 }
 
-/// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many: in its text, or by
-/// a number in `contact.slices` that is not the default.
+/// The scene with the slices that its width, load and micro-geometry need, unless the scene gives their number: in its
+/// text, or by a value of `contact.slices` that is not the default.
 pub fn with_slices(scene: Scene) -> Scene {
     with_slices_by(scene, slices_needed)
 }
@@ -64,7 +64,7 @@ pub(crate) fn with_slices_by(mut scene: Scene, needed: impl FnOnce(&GearPair, &S
     scene
 }
 
-/// How fine the contact is of a pair that is computed with `options`, and what a user should hear of it.
+/// Resolution of the contact of a pair that is computed with `options`, with remarks for the user.
 pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<Remark>) {
     let sliced = options.contact.method == Method::Slice;
     let slices_chosen = sliced && scene.place_of(&[SLICES]).is_none();

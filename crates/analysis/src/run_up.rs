@@ -1,4 +1,4 @@
-//! What a run-up costs and shows: the torque that its acceleration takes, and how finely its order cuts see a resonance.
+//! Cost and resolution of a run-up: the torque of its acceleration, and how finely its order cuts resolve a resonance.
 
 use answer::Remark;
 use dynamics::Speed;
@@ -13,12 +13,12 @@ const POINTS: usize = 10;
 /// Largest slope of the smooth step 3 x^2 - 2 x^3.
 const STEEPEST: f64 = 1.5;
 
-/// What the acceleration of a ramp of speed takes, at the gear or shaft whose inertia and load are meant.
+/// Torques of a speed ramp, at the gear or shaft to which inertia and load are referred.
 ///
 /// ```text
 /// T_J = 3/2 J |omega_2 - omega_1| / T
 /// ```
-/// the largest of the smooth step 3 x^2 - 2 x^3 over its duration T.
+/// This is the maximum for the smooth step 3 x^2 - 2 x^3 over its duration T.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunUpTorque {
     /// Duration of the ramp, s.

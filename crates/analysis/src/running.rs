@@ -1,4 +1,4 @@
-//! Mean and ends of numbers as they come.
+//! Running mean and extremes of a series.
 
 /// Sum, count, least and largest of numbers so far.
 #[derive(Debug, Clone, Copy)]
@@ -19,14 +19,14 @@ impl Default for Running {
 }
 
 impl Running {
-    /// One more number.
+    /// Adds a value.
     pub fn push(&mut self, x: f64) {
         self.sum += x;
         self.count += 1;
         self.ends = [self.ends[0].min(x), self.ends[1].max(x)];
     }
 
-    /// One more number, where there is one: what is not known once is not known at all.
+    /// Adds a value if there is one. If one value is unknown, the whole result is unknown.
     pub fn push_known(&mut self, x: Option<f64>) {
         match x {
             Some(x) => self.push(x),
@@ -34,12 +34,12 @@ impl Running {
         }
     }
 
-    /// Arithmetic mean; NaN of nothing.
+    /// Arithmetic mean; NaN for an empty series.
     pub fn mean(&self) -> f64 {
         self.sum / self.count as f64
     }
 
-    /// Itself, where every number was known and there was one.
+    /// The result, if every value was known and there was at least one.
     pub fn known(self) -> Option<Self> {
         (self.is_known && self.count > 0).then_some(self)
     }

@@ -1,4 +1,4 @@
-//! What scenes at rest, one after the other, have in common: meshes, reduced gears, tables of the contact.
+//! Data that successive static scenes share: meshes, reduced gears, tables of the contact.
 
 use answer::Remark;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -25,10 +25,11 @@ use crate::{
 /// Models that are kept at the most; which of them goes first is the one that was made first.
 const MOST_MODELS: usize = 8;
 
-/// Models of pairs that differ in what neither their matrices nor their contact tables know: micro-geometry, pitch
-/// errors, misalignment, friction, slices, torque, positions.
+/// Models of pairs that differ only in quantities on which neither their matrices nor their contact tables depend:
+/// micro-geometry, pitch errors, misalignment, friction, slices, torque, positions.
 ///
-/// Meshes of gearboxes share their reduced gears alike. Shared among threads. What is shared changes no bit of a result ([`StaticModel::modified`]).
+/// Meshes of gearboxes share their reduced gears in the same way. Threads share this object. Sharing does not change
+/// any bit of a result ([`StaticModel::modified`]).
 pub struct SharedModels<'a> {
     cache: Arc<dyn GearCache + Send + 'a>,
     /// Those that the caller holds, in place of those of the scenes.
@@ -56,7 +57,7 @@ pub(crate) struct Base {
 }
 
 impl Base {
-    /// What a user should hear of its bodies.
+    /// Remarks about its bodies.
     pub fn body_remarks(&self) -> &[Remark] {
         self.of_bodies.get_or_init(|| body_remarks(&self.model))
     }
@@ -69,18 +70,18 @@ impl std::fmt::Debug for SharedModels<'_> {
 }
 
 impl<'a> SharedModels<'a> {
-    /// None yet; reduced gears come from a cache and go there.
+    /// Empty at first; reduced gears are read from a cache and stored there.
     pub fn new(cache: &'a dyn GearCache) -> Self {
         Self::holding(Arc::new(cache))
     }
 
-    /// Shared models over a cache that others may hold as well.
+    /// Shared models with a cache that may itself be shared.
     pub fn holding(cache: Arc<dyn GearCache + Send + 'a>) -> Self {
         let (known, pairs, read, lines) = Default::default();
         Self { cache, meshes: None, known, pairs, read, lines }
     }
 
-    /// With meshes of pinion and wheel in place of those of all scenes. They are checked as files are.
+    /// Uses meshes of pinion and wheel instead of those of all scenes. They are checked like mesh files.
     #[must_use]
     pub fn with_meshes(self, meshes: [Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
@@ -125,10 +126,10 @@ impl<'a> SharedModels<'a> {
         Ok(made)
     }
 
-    /// Meshes and reduced gears of a scene, for others of its kind.
+    /// Makes meshes and reduced gears of a scene available to others of its kind.
     ///
     /// # Errors
-    /// [`AnalysisError`], also where the model of the scene reduces no gears.
+    /// [`AnalysisError`], also if the model of the scene reduces no gears.
     pub fn reduce(&self, scene: &Scene) -> Result<(), AnalysisError> {
         if scene.analysis.model != Model::Reduced {
             return Err(crate::error::nothing_to_reduce(scene));

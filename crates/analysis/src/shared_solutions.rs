@@ -1,4 +1,4 @@
-//! Scenes at rest, one after the other, on what they have in common.
+//! Solves successive static scenes with shared data.
 
 use std::{
     cell::RefCell,
@@ -33,13 +33,13 @@ use crate::{
     window::{foreseen_window, wider_window},
 };
 
-/// Whether it is found out what a user should hear of pair, meshes and bodies at rest, which takes a twentieth of the time
-/// of a quick case.
+/// Whether remarks about the pair, meshes and bodies of a static scene are collected, which takes a twentieth of the
+/// time of a quick case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RemarksAtRest {
-    /// The history has all remarks that a run by itself has.
+    /// The history has all remarks of a separate run.
     Collected,
-    /// The history has the remarks of its own positions alone.
+    /// The history has only the remarks of its own positions.
     Skipped,
 }
 
@@ -50,26 +50,26 @@ pub(crate) struct Rates<'a> {
     pub of_unloaded: bool,
 }
 
-/// What is asked of a scene at rest.
+/// Request for a static scene.
 #[derive(Clone, Copy, Debug)]
 pub struct RestRequest<'a> {
-    /// Whether remarks about pair, meshes and bodies are found out.
+    /// Whether remarks about pair, meshes and bodies are collected.
     pub remarks: RemarksAtRest,
-    /// Whether positions have the lengths of their contact lines under load; those of others are no numbers. A scene that
-    /// shares nothing has them.
+    /// Whether positions have the lengths of their contact lines under load; otherwise they are NaN. A scene that
+    /// shares nothing always has them.
     pub line_lengths: bool,
-    /// Whether the answer is still wanted; the solve ends with [`AnalysisError::Cancelled`] where it is not. A scene that
+    /// Whether the result is still wanted; if not, the solution ends with [`AnalysisError::Cancelled`]. A scene that
     /// shares nothing reduces its gears to the end.
     pub interest: Interest<'a>,
 }
 
 impl RestRequest<'static> {
-    /// A result to its end with these remarks.
+    /// Request for a complete result with these remarks.
     pub const fn to_the_end(remarks: RemarksAtRest) -> Self {
         Self { remarks, line_lengths: true, interest: Interest::LASTING }
     }
 
-    /// Without the lengths of contact lines under load.
+    /// The request without the lengths of contact lines under load.
     #[must_use]
     pub const fn without_line_lengths(self) -> Self {
         Self { line_lengths: false, ..self }

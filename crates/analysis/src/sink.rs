@@ -1,31 +1,31 @@
-//! Who gets the positions of a pair at rest as they are solved.
+//! Receives the positions of a static pair as they are solved.
 
 use ltca::{StaticModel, StaticPosition};
 use scene::Scene;
 
-/// Gets the positions of a static analysis as they are solved.
+/// Receives the positions of a static analysis as they are solved.
 pub trait StaticSink {
-    /// The analysis of a scene as it is solved begins, again where a wider window or a finer rung is needed: what came
-    /// before does not count.
+    /// Called when the analysis of a scene, as solved, begins, and again if a wider window or a finer rung is needed;
+    /// earlier results are then discarded.
     fn begin(&mut self, scene: &Scene);
 
-    /// A position, in order; the model is where it was found.
+    /// Called for each position in order; the model is in the state of that position.
     ///
     /// # Errors
-    /// Whatever ends the analysis; it comes back as `AnalysisError::Sink`.
+    /// Any error ends the analysis and is returned as `AnalysisError::Sink`.
     fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult;
 
-    /// All positions have come.
+    /// Called when all positions have been solved.
     ///
     /// # Errors
-    /// As [`StaticSink::position`].
+    /// Those of [`StaticSink::position`].
     fn finish(&mut self) -> SinkResult;
 }
 
-/// What a sink says.
+/// Result of a sink's method.
 pub type SinkResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 
-/// Takes nothing: the result holds all positions.
+/// Sink that takes nothing: the result has all positions.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoSink;
 

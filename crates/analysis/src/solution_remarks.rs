@@ -1,4 +1,4 @@
-//! What a user should hear of a solution.
+//! Remarks about a solution for the user.
 
 use answer::Remark;
 use fem::locks_from;
@@ -11,8 +11,8 @@ use crate::{coarse::Coarse, gear_dofs::reduced, remark};
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 
-/// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth
-/// stiffen.
+/// Remarks about effects of the modelled gear bodies that the user's machine may not have: free cuts soften, bores
+/// close to the teeth stiffen.
 pub fn body_remarks(model: &StaticModel) -> Vec<Remark> {
     let gears = model.gears();
     let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
@@ -69,7 +69,8 @@ fn rim_remark(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Rema
         .then(|| remark::rim_held(NAMES[i], bore, lumped::iso::rim_ratio(gear), solid[i].bore_diameter, 100.0 * softer))
 }
 
-/// Elements that lock: linear tetrahedra and wedges in bending always, others near a Poisson's ratio of 0.5.
+/// Remark about elements that lock: linear tetrahedra and wedges in bending always, others near a Poisson's ratio of
+/// 0.5.
 pub fn locking_remark(gear: &ElasticGear, name: &str) -> Option<Remark> {
     let poisson = gear.material().poisson();
     let kinds: Vec<ElementKind> = gear.gear().mesh().blocks.iter().map(|b| b.kind).collect();

@@ -22,30 +22,30 @@ use crate::{
     static_certificate,
 };
 
-/// A scene with its answer.
+/// A scene with its result.
 #[derive(Debug)]
 pub enum Solved {
-    /// Positions at rest.
+    /// Static positions.
     AtRest(Box<SolvedAtRest>),
-    /// A motion, or many.
+    /// One motion, or several.
     InTime(Box<SolvedInTime>),
 }
 
-/// A scene at rest with its answer.
+/// A static scene with its result.
 #[derive(Debug)]
 pub struct SolvedAtRest {
     /// The scene as it was solved.
     pub scene: Scene,
-    /// Position by position.
+    /// Results, position by position.
     pub history: StaticHistory,
-    /// Derivatives by keys, where the scene asks for them.
+    /// Derivatives by keys, if the scene requests them.
     pub derivatives: Option<Derivatives>,
 }
 
-/// Solves a document: the one way from what is asked to its answer.
+/// Solves a document: the only function that does so.
 ///
-/// For a scene at rest [`Context::with_models`] says what is known of its gears, and a result that does not hold is an
-/// error; in time [`Solved::verdict`] tells, and of a gearbox its own.
+/// For a static scene [`Context::with_models`] provides existing gears, and a result that fails its checks is an error.
+/// For a scene in time [`Solved::verdict`] tells; a gearbox has its own verdict.
 ///
 /// # Errors
 /// [`AnalysisError`].
@@ -84,12 +84,11 @@ impl Question for Scene {
     }
 }
 
-/// Solves a scene at rest on what `models` have of its gears, with the derivatives that it asks for in
-/// `output.derivatives`.
+/// Solves a static scene with the gears available in `models`, with the derivatives requested in `output.derivatives`.
 ///
 /// # Errors
-/// [`AnalysisError`]; [`AnalysisError::Certificate`] of a result that does not hold, [`AnalysisError::Cancelled`] where
-/// interest was lost.
+/// [`AnalysisError`]; [`AnalysisError::Certificate`] for a result that fails its checks, [`AnalysisError::Cancelled`]
+/// if it was cancelled.
 pub fn solve_at_rest(
     scene: &Scene,
     models: &SharedModels<'_>,
@@ -107,16 +106,16 @@ impl SolvedAtRest {
     /// The headline of `summary.json`.
     ///
     /// # Errors
-    /// [`AnalysisError::Statistics`] where the positions give no statistics.
+    /// [`AnalysisError::Statistics`] if no statistics can be computed from the positions.
     pub fn headline(&self) -> Result<StaticHeadline, AnalysisError> {
         Ok(static_headline(&self.scene, &self.history)?)
     }
 
-    /// Geometry and certificate. Meshes and reduction are what [`crate::StaticAnalysis`] tells of, which solves a scene by
-    /// itself.
+    /// Geometry and certificate. Facts about meshes and reduction come from [`crate::StaticAnalysis`], which solves a
+    /// scene separately.
     ///
     /// # Errors
-    /// Where the scene is no pair.
+    /// An error if the scene is not a valid pair.
     pub fn facts(&self) -> Result<RunInfo, AnalysisError> {
         let pair = self.scene.gear_pair()?;
         Ok(RunInfo {
@@ -133,10 +132,10 @@ impl SolvedAtRest {
 }
 
 impl Solved {
-    /// The answer in time.
+    /// The result in time.
     ///
     /// # Errors
-    /// [`AnalysisError::Refused`] of a scene at rest.
+    /// [`AnalysisError::Refused`] for a static scene.
     pub fn in_time(self) -> Result<Box<SolvedInTime>, AnalysisError> {
         match self {
             Self::InTime(solved) => Ok(solved),
@@ -155,7 +154,7 @@ impl Solved {
     /// The headline of `summary.json`; numbers without a value (NaN) are null.
     ///
     /// # Errors
-    /// As [`SolvedAtRest::headline`].
+    /// The errors of [`SolvedAtRest::headline`].
     pub fn headline(&self) -> Result<Value, AnalysisError> {
         match self {
             // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
@@ -164,10 +163,10 @@ impl Solved {
         }
     }
 
-    /// What the result was made of, with its certificate; at rest as [`SolvedAtRest::facts`].
+    /// Facts about the result, with its certificate; for a static scene as in [`SolvedAtRest::facts`].
     ///
     /// # Errors
-    /// Where a scene at rest is no pair.
+    /// An error if a static scene is not a valid pair.
     pub fn facts(&self) -> Result<Cow<'_, RunInfo>, AnalysisError> {
         match self {
             Self::AtRest(solved) => solved.facts().map(Cow::Owned),
@@ -175,7 +174,7 @@ impl Solved {
         }
     }
 
-    /// What a user should hear.
+    /// Remarks for the user.
     pub fn remarks(&self) -> &[answer::Remark] {
         match self {
             Self::AtRest(solved) => &solved.history.remarks,
@@ -183,10 +182,10 @@ impl Solved {
         }
     }
 
-    /// Whether the result holds and is as exact as was asked.
+    /// Whether the result passes its checks and meets the requested accuracy.
     ///
     /// # Errors
-    /// As [`SolvedInTime::verdict`]; at rest [`AnalysisError::Certificate`].
+    /// Those of [`SolvedInTime::verdict`]; for a static scene [`AnalysisError::Certificate`].
     pub fn verdict(&self) -> Result<(), AnalysisError> {
         match self {
             Self::AtRest(solved) => crate::certificate::verdict(&solved.certificate(), &solved.scene),

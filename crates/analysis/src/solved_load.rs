@@ -1,4 +1,4 @@
-//! A pair under each load of its spectrum: cycles that are solved, and what a rating reads of them.
+//! A pair under each load of its spectrum: solved cycles, and the inputs of the rating.
 
 use std::{collections::BTreeSet, ops::ControlFlow};
 
@@ -103,10 +103,10 @@ pub(crate) struct SolvedLoad {
 }
 
 impl SolvedLoad {
-    /// Of all torques that a history was solved under, its own among them; none where it has no others.
+    /// Values for all torques of a history, including its own; empty if it has no further torques.
     ///
     /// # Errors
-    /// [`AnalysisError`] where the positions give no pattern.
+    /// [`AnalysisError`] if the positions give no pattern.
     pub fn all(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<Vec<Self>, AnalysisError> {
         if scene.rating.as_ref().is_none_or(|own| own.spectrum.is_none()) || history.positions.is_empty() {
             return Ok(Vec::new());
@@ -117,10 +117,10 @@ impl SolvedLoad {
         std::iter::once((nominal, &history.positions)).chain(others).map(|own| Self::of(scene, pair, own)).collect()
     }
 
-    /// Of a mesh of a gearbox, whose slices are those of all its tooth pairs.
+    /// Values for a mesh of a gearbox, whose slices are those of all its tooth pairs.
     ///
     /// # Errors
-    /// [`AnalysisError`] where the slices give no pattern.
+    /// [`AnalysisError`] if the slices give no pattern.
     pub fn of_mesh(
         scene: &Scene,
         pair: &GearPair,
@@ -153,8 +153,8 @@ impl SolvedLoad {
         })
     }
 
-    /// Damage over a life by the pressures and root stresses of all loads; `None` where one of them is not solved, or has
-    /// no pressures.
+    /// Damage over a life from the pressures and root stresses of all loads; `None` if one of them is not solved, or
+    /// has no pressures.
     pub fn damage(all: &[Self], spectrum: &RatedSpectrum, pair: &GearPair) -> Option<LocalDamage> {
         let stress = |own: &RatedLoad| {
             let solved = Self::under(all, &own.load)?;

@@ -1,4 +1,4 @@
-//! The solved contact of a pair, or of a mesh of a gearbox, as ratings read it.
+//! The solved contact of a pair, or of a mesh of a gearbox, in the form that ratings need.
 
 use contact::{Site, SliceResult};
 use gearbox::MeshState;
@@ -27,7 +27,7 @@ pub(crate) struct SolvedMesh {
 }
 
 impl SolvedMesh {
-    /// Of a pair at rest.
+    /// Values of a static pair.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Self {
         let positions = &history.positions;
         let largest = positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
@@ -43,7 +43,7 @@ impl SolvedMesh {
         }
     }
 
-    /// Of a mesh of a gearbox at rest, whose slices are those of all its tooth pairs.
+    /// Values of a mesh of a static gearbox, whose slices are those of all its tooth pairs.
     pub fn of_mesh(scene: &Scene, meshes: &[&MeshState], sense: Sense) -> Self {
         let slices = || meshes.iter().flat_map(|m| &m.slices);
         let hardest = SliceResult::hardest(slices()).and_then(|hardest| {

@@ -1,4 +1,4 @@
-//! What must hold of positions at rest.
+//! Checks of static positions.
 
 use ltca::StaticPosition;
 
@@ -22,8 +22,8 @@ pub(crate) const ROUND_OFF: f64 = 1e-2;
 
 const HINT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 
-/// The worst of all positions of a scene: torque balance, complementarity, action and reaction, digits that are left,
-/// deflection and pressure that linear elasticity holds for.
+/// The worst values of all positions of a scene: torque balance, complementarity, action and reaction, remaining
+/// digits, and the range of deflection and pressure in which linear elasticity is valid.
 pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Checks {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
     let check = |name: &'static str, value, bound| Check::new(name, value, bound, HINT);
@@ -46,7 +46,7 @@ fn deflection(position: &StaticPosition) -> f64 {
     (position.transmission_error - position.kinematic_transmission_error).abs()
 }
 
-/// The larger; a NaN is the worst of all and is not lost, as it would be in `f64::max`.
+/// The larger value; a NaN counts as the worst and is not ignored, as it would be in `f64::max`.
 pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }

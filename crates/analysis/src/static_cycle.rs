@@ -1,4 +1,4 @@
-//! Positions of the loaded pair through its mesh cycles, on gears of its own or on those that scenes share.
+//! Positions of the loaded pair through its mesh cycles, on its own gears or on shared ones.
 
 use crate::remark;
 use answer::Remark;
@@ -43,7 +43,7 @@ pub(crate) struct SolvedStaticCycle {
 }
 
 impl CycleInputs<'_> {
-    /// All positions, with window after window until one suffices.
+    /// Solves all positions, with wider windows until one is sufficient.
     ///
     /// # Errors
     /// [`AnalysisError`].

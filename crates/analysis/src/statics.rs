@@ -1,4 +1,4 @@
-//! The loaded pair of a scene at rest, through its mesh cycles.
+//! The loaded pair of a static scene through its mesh cycles.
 
 use std::sync::Arc;
 
@@ -29,18 +29,18 @@ use crate::{
     static_cycle::{CycleInputs, SolvedStaticCycle},
 };
 
-/// The answer to a scene at rest.
+/// Result of a static scene.
 #[derive(Debug)]
 pub struct StaticResult {
-    /// The scene: of `model = "auto"` with the model, mesh, slices and positions that were taken.
+    /// The scene; for `model = "auto"` with the chosen model, mesh, slices and positions.
     pub scene: Scene,
-    /// The exact pair.
+    /// The nominal gear pair.
     pub pair: GearPair,
-    /// Position by position, with remarks.
+    /// Results position by position, with remarks.
     pub history: StaticHistory,
     /// Facts about the model and its meshes.
     pub facts: RunInfo,
-    /// The model with its reduced gears, for more of the same; `None` for a model without meshes.
+    /// The model with its reduced gears, for further solutions; `None` for a model without meshes.
     pub model: Option<StaticModel>,
 }
 
@@ -62,25 +62,25 @@ impl std::fmt::Debug for CycleAnalysis<'_> {
 }
 
 impl<'a> CycleAnalysis<'a> {
-    /// Analysis of a scene, its meshes read or made as it says.
+    /// Analysis of a scene, with its meshes read or generated as it says.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, meshes: None, cache: &NoCache, shared: None, slices_stand: false, tells_facts: true }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene.
+    /// Uses meshes of pinion and wheel from the caller instead of those of the scene.
     #[must_use]
     pub fn with_meshes(self, meshes: Option<[&'a Mesh; 2]>) -> Self {
         Self { meshes, ..self }
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// On what earlier scenes of its kind have left: their meshes, reduced gears and contact tables, and what they leave
-    /// for later ones. No bit of the result changes. Of a model whose gears are not reduced nothing is shared.
+    /// Shares meshes, reduced gears and contact tables with earlier and later scenes of its kind. No bit of the result
+    /// changes. Models without reduced gears share nothing.
     #[must_use]
     pub fn with_shared(self, models: &'a SharedModels<'a>) -> Self {
         Self { shared: Some(models), ..self }
@@ -93,14 +93,14 @@ impl<'a> CycleAnalysis<'a> {
         Self { slices_stand: true, ..self }
     }
 
-    /// Positions and remarks alone: of a model in closed form nothing is found out that only files tell, which takes
-    /// longer than its positions.
+    /// Only positions and remarks. For a model in closed form, facts that only the files need are not computed, because
+    /// they take longer than its positions.
     #[must_use]
     pub fn without_facts(self) -> Self {
         Self { tells_facts: false, ..self }
     }
 
-    /// Slices over the face width that it takes; `None` for a model without slices.
+    /// Number of slices over the face width; `None` for a model without slices.
     pub fn slices(&self) -> Option<u32> {
         self.settled().contact.slices
     }
@@ -115,7 +115,7 @@ impl<'a> CycleAnalysis<'a> {
         if self.slices_stand { self.scene.clone() } else { resolved_scene(self.scene, self.has_meshes()) }
     }
 
-    /// Solves it, telling nobody.
+    /// Solves it without progress reports.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -123,7 +123,7 @@ impl<'a> CycleAnalysis<'a> {
         self.solve_into(&mut NoObserver, &mut NoSink)
     }
 
-    /// Solves it; positions go into `sink` as they come.
+    /// Solves it; positions are passed to `sink` as they are solved.
     ///
     /// # Errors
     /// [`AnalysisError`].

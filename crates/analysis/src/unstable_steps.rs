@@ -1,4 +1,4 @@
-//! Steps that are too long for an explicit method, and what would do.
+//! Steps that are too long for an explicit method, and sufficient settings.
 
 use std::f64::consts::TAU;
 
@@ -11,22 +11,23 @@ const MOST: f64 = 100_000.0;
 /// Share of the limit that the advice makes use of: tangents grow a little on the way.
 const WITHIN: f64 = 0.9;
 
-/// Steps of a run where they are longest.
+/// Longest steps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
-    /// Length, s.
+    /// Step length, s.
     pub step: f64,
-    /// Keys that say how many steps there are, each with the frequency (Hz) whose periods they divide; 0: none.
+    /// Keys that set the number of steps, each with the frequency (Hz) whose period they divide; 0: none.
     pub keys: [(&'static str, f64); 2],
 }
 
 impl Steps {
-    /// Of a pair: the mesh frequency there, and the mesh resonance that `steps_per_resonance` counts by, Hz; 0: none.
+    /// Steps of a pair: the mesh frequency at this step, and the mesh resonance to which `steps_per_resonance` refers,
+    /// Hz; 0: none.
     pub fn of_pair(step: f64, mesh_hz: f64, resonance_hz: f64) -> Self {
         Self { step, keys: [("steps_per_resonance", resonance_hz), ("steps_per_mesh_cycle", mesh_hz)] }
     }
 
-    /// Of a gearbox: the frequency of its fastest mesh there, Hz.
+    /// Steps of a gearbox: the frequency of its fastest mesh at this step, Hz.
     pub fn of_gearbox(step: f64, mesh_hz: f64) -> Self {
         Self { step, keys: [("steps_per_cycle", mesh_hz), ("", 0.0)] }
     }
@@ -37,7 +38,7 @@ impl Steps {
 pub struct UnstableSteps {
     /// The steps.
     pub steps: Steps,
-    /// The longest that are stable.
+    /// The longest stable step.
     pub limit: StepLimit,
 }
 
@@ -54,17 +55,17 @@ impl std::fmt::Display for UnstableSteps {
 }
 
 impl UnstableSteps {
-    /// The steps where an explicit method does not bear them; `None`: it does.
+    /// The steps if an explicit method is unstable with them; `None` if it is stable.
     pub fn of(steps: Steps, limit: StepLimit) -> Option<Self> {
         (steps.step > limit.step).then_some(Self { steps, limit })
     }
 
-    /// What is refused.
+    /// The error about these steps.
     pub fn refusal(&self) -> Refusal {
         Refusal::no_result(self.to_string(), Some(self.hint()))
     }
 
-    /// Keys with the numbers that would do, as far as they take them.
+    /// Keys with sufficient values, as far as the keys permit them.
     pub fn hint(&self) -> String {
         let Self { steps, limit } = self;
         let needed = |hz: f64| (1.0 / (WITHIN * limit.step * hz)).ceil();

@@ -1,4 +1,4 @@
-//! Scenes beside a scene, for derivatives.
+//! Neighbouring scenes of a scene, for derivatives.
 
 use geometry::GearPair;
 use ltca::{StaticOptions, Variation};
@@ -6,10 +6,10 @@ use scene::{ContactScene, Scene};
 
 use crate::{AnalysisError, failure::Failure, options::options, refused::Refusal};
 
-/// A scene with a little less and a little more of a parameter that meshes and matrices do not know.
+/// A scene with slightly smaller and slightly larger values of a parameter on which meshes and matrices do not depend.
 #[derive(Debug, Clone)]
 pub struct VariedScene {
-    /// With less, and with more.
+    /// Scenes with the smaller and with the larger value.
     pub sides: [Scene; 2],
     /// Amount of the change, in the unit of the parameter.
     pub steps: [f64; 2],
@@ -19,7 +19,7 @@ impl VariedScene {
     /// The neighbours of a scene along a key.
     ///
     /// # Errors
-    /// [`AnalysisError`]: a value beside that of the scene is none.
+    /// [`AnalysisError`] if a neighbouring value is not valid.
     pub fn by_key(scene: &Scene, key: &str) -> Result<Self, AnalysisError> {
         let value = scene.number_at(key).ok_or_else(Refusal::no_values)?;
         let step = Scene::design_step(key);
@@ -30,7 +30,7 @@ impl VariedScene {
     /// Scenes varied by some keys.
     ///
     /// # Errors
-    /// As of [`VariedScene::by_key`].
+    /// The errors of [`VariedScene::by_key`].
     pub fn by_keys(scene: &Scene, keys: &[String]) -> Result<Vec<Self>, AnalysisError> {
         keys.iter().map(|key| Self::by_key(scene, key)).collect()
     }

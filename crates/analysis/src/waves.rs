@@ -1,4 +1,4 @@
-//! Waves on measured flanks that are shorter than the band of contact. Theory (26a).
+//! Waves on measured flanks that are shorter than the contact band. Theory (26a).
 
 use crate::remark;
 use answer::Remark;

@@ -1,4 +1,4 @@
-//! How many teeth a window has: foreseen from the load before gears are reduced, one more where it was too narrow.
+//! Number of teeth of a window: predicted from the load before gears are reduced, one more if it was too narrow.
 
 use answer::Remark;
 use geometry::GearPair;

@@ -21,7 +21,7 @@ pub struct Answer {
     pub headline: Value,
     /// What was demanded, and what was found.
     pub checks: Checks,
-    /// What the user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
     /// Facts about the run, by key with unit.
     pub info: Map<String, Value>,

@@ -1,10 +1,10 @@
-//! Zeros and boundaries in brackets.
+//! Bisection for zeros and for limits of conditions.
 
 /// Evaluations of a bracketed zero before it is taken as it is; bisection alone needs 50.
 const BRACKET_STEPS: usize = 120;
 
-/// The place nearest to `outside` at which `holds` is still true, by at most `steps` bisections, or until the bracket
-/// is no wider than `width`. `holds` is true at `inside` and false at `outside`.
+/// The position nearest to `outside` at which `holds` is still true, found by at most `steps` bisections, or until the
+/// bracket is at most `width` wide. `holds` is true at `inside` and false at `outside`.
 pub fn last_inside(holds: impl Fn(f64) -> bool, [mut inside, mut outside]: [f64; 2], steps: usize, width: f64) -> f64 {
     for _ in 0..steps {
         if (outside - inside).abs() <= width {

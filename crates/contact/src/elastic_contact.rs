@@ -1,4 +1,4 @@
-//! Contact of a window on any elastic model: points or slices, gears reduced or with all their degrees of freedom.
+//! Contact of a window with any elastic model: points or slices, gears reduced or with all their degrees of freedom.
 
 use std::collections::BTreeMap;
 
@@ -15,18 +15,18 @@ use crate::{
     wrenches,
 };
 
-/// Forces by (patch of body 1, patch of body 2, point), from which a solution may start.
+/// Forces by (patch of body 1, patch of body 2, point), used as start of a solution.
 pub type WarmStart = BTreeMap<(usize, usize, usize), f64>;
 
 /// Flanks, matrices and options of a window.
 ///
-/// [`crate::slice::MeshContact`] solves slices on reduced gears much faster; this serves all others, and takes no memory of
-/// its own.
+/// [`crate::slice::MeshContact`] solves slices on reduced gears much faster. This type serves all other cases and keeps
+/// no memory between solutions.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticContact<'a> {
-    /// The pair.
+    /// The gear pair.
     pub pair: &'a GearPair,
-    /// Elastic gears.
+    /// Elastic models of both gears.
     pub gears: &'a [ElasticGear; 2],
     /// Flanks and matrices of the window.
     pub set: &'a ContactSet,
@@ -34,7 +34,7 @@ pub struct ElasticContact<'a> {
     pub options: &'a ContactOptions,
 }
 
-/// Candidate rows at a pose, and the slice of each; no slices where points touch.
+/// Candidate rows at a pose, and the slice of each row; no slices for contact of points.
 #[derive(Debug, Clone, Default)]
 pub struct CandidateRows {
     /// Points or slices within reach.
@@ -44,7 +44,7 @@ pub struct CandidateRows {
 }
 
 impl ElasticContact<'_> {
-    /// Rows whose gap is at most `reach` (mm), with friction; `line` holds the points of least gap
+    /// Rows whose gap is at most `reach` (mm), with friction. `line` has the points of smallest gap
     /// ([`ContactSet::line_points`]).
     pub fn rows(&self, line: &LinePoints, poses: &[Pose; 2], reach: f64) -> CandidateRows {
         let Self { pair, set, options, .. } = *self;
@@ -64,11 +64,11 @@ impl ElasticContact<'_> {
         CandidateRows { rows, slices }
     }
 
-    /// Forces on the rows, and the displacements of both gears' boundary coordinates, mm. With a moment to balance,
-    /// gear `body` turns.
+    /// Forces on the rows, and the displacements of both gears' boundary coordinates, mm. If a moment is balanced, gear
+    /// `body` rotates.
     ///
     /// # Errors
-    /// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`], and those of the elastic model.
+    /// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`], and the errors of the elastic model.
     pub fn solve(
         &self,
         of: &CandidateRows,
@@ -89,14 +89,13 @@ impl ElasticContact<'_> {
         Ok((solution, displacements))
     }
 
-    /// Forces with the gears' frames held at `poses`, and their tangent, as [`crate::slice::MeshContact::evaluate`] gives
-    /// them.
+    /// Forces with the gears' frames held at `poses`, and their tangent, as in [`crate::slice::MeshContact::evaluate`].
     ///
-    /// Points that penetrate each other undeformed are within reach, and all that are less far apart than the deepest
-    /// of them overlaps: deflections under load on other points close no larger gap.
+    /// The candidates are the points whose gap is smaller than the deepest undeformed overlap, including all points
+    /// that penetrate: deflections under load on other points close no larger gap.
     ///
     /// # Errors
-    /// Those of [`ElasticContact::solve`].
+    /// The errors of [`ElasticContact::solve`].
     pub fn evaluate(&self, poses: &[Pose; 2]) -> Result<MeshForce, ContactError> {
         let line = self.set.line_points(self.options, poses);
         let overlapping = self.rows(&line, poses, 0.0);

@@ -1,6 +1,6 @@
 //! Errors of contact.
 
-/// Contact could not be set up or solved.
+/// Contact cannot be set up or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContactError {
@@ -11,38 +11,38 @@ pub enum ContactError {
     OffSurface {
         /// Name of the flank.
         patch: String,
-        /// Node of the mesh.
+        /// Number of the node.
         node: u32,
         /// Distance of the node, mm.
         distance_mm: f64,
-        /// Largest distance allowed, mm.
+        /// Tolerance for the distance, mm.
         tolerance_mm: f64,
     },
-    /// A node of a flank is none of the nodes that the gear's matrices know.
+    /// A node of a flank is not among the nodes of the gear's matrices.
     #[error("node {node} of {patch} is no boundary node of the gear's matrices")]
     NotOnBoundary {
         /// Name of the flank.
         patch: String,
-        /// Node of the mesh.
+        /// Number of the node.
         node: u32,
     },
-    /// No point of the one body comes near the other.
+    /// No point of one body is near the other.
     #[error("no flank point is within {reach_mm} mm of the other gear")]
     NoCandidates {
         /// Search distance, mm.
         reach_mm: f64,
     },
-    /// The set of points in contact did not settle.
+    /// The active set did not converge.
     #[error("contact did not converge after {iterations} iterations: {infeasible} points of {points} still change")]
     NotConverged {
         /// Active-set iterations.
         iterations: usize,
-        /// Points that violate the contact conditions.
+        /// Number of points that violate the contact conditions.
         infeasible: usize,
-        /// Points in all.
+        /// Total number of points.
         points: usize,
     },
-    /// The load cannot be carried by the points at hand.
+    /// The available points cannot carry the load.
     #[error("no contact point can carry the torque: the largest lever is {lever_mm:.3e} mm")]
     CannotCarryTorque {
         /// Largest lever arm, mm.
@@ -51,49 +51,49 @@ pub enum ContactError {
     /// A linear solve failed.
     #[error("the contact compliance of {points} points is not positive definite")]
     NotPositiveDefinite {
-        /// Points in the system.
+        /// Number of points in the system.
         points: usize,
     },
-    /// The stiffness of a whole gear cannot be factored or solved with.
+    /// The stiffness of a whole gear cannot be factored or solved.
     #[error("the elastic model failed: {0}")]
     Stiffness(#[from] fem::FemError),
-    /// Contact is solved on two reduced gears or on two whole ones.
+    /// One gear is reduced and the other is not.
     #[error("one gear is reduced, the other is not")]
     MixedGears,
-    /// Forces at given poses come from slices on reduced gears.
+    /// Forces at given poses were requested for contact other than slices on reduced gears.
     #[error("forces at given poses need slice contact on reduced gears")]
     NotSliced,
-    /// Normal modes are taken on the flanks of reduced gears.
+    /// Normal modes were requested for a gear that is not reduced.
     #[error("{gear}: normal modes need a reduced gear, and this one keeps all its degrees of freedom")]
     ModesOnFullGear {
-        /// `pinion` or `wheel`.
+        /// Name of the gear, `pinion` or `wheel`.
         gear: &'static str,
     },
     /// A gear has no matrices for the window.
     #[error("{gear}: {source}")]
     Reduction {
-        /// `pinion` or `wheel`.
+        /// Name of the gear, `pinion` or `wheel`.
         gear: &'static str,
         /// Error of the reduction.
         source: reduction::ReductionError,
     },
-    /// The flanks of a gear's mesh are not those of its geometry.
+    /// The flanks of a gear's mesh do not match its geometry.
     #[error("{gear}: {source}")]
     Flank {
-        /// `pinion` or `wheel`.
+        /// Name of the gear, `pinion` or `wheel`.
         gear: &'static str,
         /// Error of the contact.
         source: Box<ContactError>,
     },
-    /// A gear known by a part of its layers has no table that is exact enough.
+    /// The table of a gear condensed by its layers is not accurate enough.
     #[error("the compliance of a gear condensed by its layers is off by {error:.1e} of itself, {most:.1e} at most")]
     Layers {
-        /// Error of its table, relative.
+        /// Relative error of the table.
         error: f64,
-        /// Most that is allowed.
+        /// Largest permitted error.
         most: f64,
     },
-    /// A value out of its range.
+    /// A value outside its range.
     #[error("{name} = {value} is out of range: {expected}")]
     OutOfRange {
         /// Name of the quantity.

@@ -1,4 +1,4 @@
-//! What displacements of both gears do to flanks in one plane of action. Theory (75).
+//! Effect of displacements of both gears on flanks in one plane of action. Theory (75).
 
 use geometry::{GearPair, Side};
 use nalgebra::{SVector, Vector3};
@@ -9,23 +9,23 @@ const COORDINATES: usize = 6;
 /// Displacements of both gears.
 type Displacement = SVector<f64, 12>;
 
-/// Approach of the flanks of one side and their tilt, as linear functions of the twelve displacements:
-/// x, y, z (mm) and turns (rad) of pinion and wheel, x from axis to axis.
+/// Approach of the flanks on one side and their tilt, as linear functions of the twelve displacements: x, y, z (mm) and
+/// rotations (rad) of pinion and wheel. x points from axis to axis.
 ///
 /// ```text
 /// x = a . d: approach along the normal at the pitch point, mm;   gamma = b . d: tilt in the plane of action, rad
 /// approach at zeta = x + zeta gamma,   zeta: place along the plane of action across the normal, from the pitch point, mm
 /// ```
-/// The flanks of an involute pair touch in this plane and have one normal there, so that no other displacement closes
-/// or opens a gap to first order.
+/// The flanks of an involute pair touch in this plane and have one normal there. So no other displacement changes a gap
+/// to first order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankProjection {
-    /// a.
+    /// Approach a.
     pub approach: Displacement,
-    /// b.
+    /// Tilt b.
     pub tilt: Displacement,
-    /// What friction does that slides across the path of contact, by a unit of force on the pinion, of
-    /// its moment by the place along the path, and of its moment by the place over the face. Theory (75a).
+    /// Friction that slides across the path of contact: per unit of force on the pinion, of its moment with the
+    /// position along the path as lever, and of its moment with the position along the face as lever. Theory (75a).
     pub friction: [Displacement; 3],
     /// Pitch point in the middle of the common face, mm.
     point: Vector3<f64>,
@@ -68,27 +68,27 @@ impl FlankProjection {
         Self { approach, tilt, friction, point, across: out_of_plane.cross(&normal), along }
     }
 
-    /// Friction on the pinion at a place: along the sliding (N), and its moments along the path of contact and over the face
-    /// (N mm).
+    /// Friction on the pinion at a point: force along the sliding direction (N), and its moments along the path of
+    /// contact and over the face (N mm).
     pub fn rubbing(&self, position: &Vector3<f64>, force: &Vector3<f64>) -> [f64; 3] {
         let moment = (position - self.point).cross(force);
         [Vector3::z().cross(&self.along).dot(force), moment.z, -moment.dot(&self.along)]
     }
 
-    /// Stiffness along the approach of the normal forces alone, N/mm, by the slopes of all forces (-d/dd) over the wheel's
-    /// turn: friction has no part along the line of action.
+    /// Stiffness along the approach of the normal forces alone, N/mm, from the derivatives of all forces (-d/dd) by the
+    /// wheel's rotation. Friction has no component along the line of action.
     pub fn normal_stiffness(&self, over_turn: &Displacement) -> f64 {
         let normal = self.approach.fixed_rows::<2>(0);
         let along = normal.dot(&over_turn.fixed_rows::<2>(0));
         along / (normal.norm_squared() * self.approach[2 * COORDINATES - 1])
     }
 
-    /// Place of a point of contact across the normal, mm.
+    /// Position of a contact point across the normal, mm.
     pub fn lever(&self, position: &Vector3<f64>) -> f64 {
         (position - self.point).dot(&self.across)
     }
 
-    /// Displacements with this approach and tilt: the wheel turned about its own axis, and tilted in the plane of
+    /// Displacements with this approach and tilt: the wheel rotates about its own axis and tilts in the plane of
     /// action.
     pub fn displacement(&self, approach: f64, tilt: f64) -> Displacement {
         let turn = 2 * COORDINATES - 1;

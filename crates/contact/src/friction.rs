@@ -8,13 +8,13 @@ use crate::{ContactOptions, Pose, Vec3, nodal::ContactRow};
 /// longer half of the path of contact: it changes its sign through zero where a slice passes the pitch line.
 const REGULARISATION: f64 = 0.02;
 
-/// Friction of a pair that turns in the ratio of its teeth.
+/// Friction of a pair that rotates with the ratio of its tooth numbers.
 ///
 /// ```text
 /// F_t = -mu tanh(|v| / v_0) v / |v| F_n,   v = v_1 - v_2 at the contact
 /// ```
-/// v scales with the speed and so does v_0: friction depends on the position alone. It acts on the material as well as
-/// on the torque: the matrix of the contact is not symmetric.
+/// v scales with the speed and so does v_0, so friction depends only on the position. Friction changes the deformation
+/// as well as the torque: the matrix of the contact is not symmetric.
 #[derive(Debug, Clone, Copy)]
 pub struct Friction {
     coefficient: f64,
@@ -35,7 +35,7 @@ impl Friction {
         })
     }
 
-    /// A row with friction.
+    /// The row with its friction.
     pub fn on(&self, poses: &[Pose; 2], row: ContactRow) -> ContactRow {
         let v = self.sense * sliding(self.ratio, poses, &row);
         let speed = v.norm();
@@ -46,14 +46,13 @@ impl Friction {
     }
 }
 
-/// Work that friction takes per radian of the pinion's rotation in the running sense, for a unit normal force at the
-/// row, mm.
+/// Friction work per radian of the pinion's rotation in the running sense, for a unit normal force at the row, mm.
 pub fn friction_work(pair: &GearPair, options: &ContactOptions, poses: &[Pose; 2], row: &ContactRow) -> f64 {
     let on_pinion = row.traction - row.normal;
     -(options.sense.sign() as f64) * on_pinion.dot(&sliding(ratio(pair), poses, row))
 }
 
-/// How far the flanks slide on each other at the row per radian of the pinion's rotation, mm.
+/// Sliding distance of the flanks on each other at the row per radian of the pinion's rotation, mm.
 pub fn sliding_distance(pair: &GearPair, poses: &[Pose; 2], row: &ContactRow) -> f64 {
     sliding(ratio(pair), poses, row).norm()
 }

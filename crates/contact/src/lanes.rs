@@ -1,8 +1,8 @@
-//! Four numbers side by side, as processors compute them at once: the same bits on every machine, because each
-//! operation rounds once, [`Four::mul_add`] included.
+//! Four numbers at once, as processors compute them. The bits are the same on every machine, because each operation
+//! rounds once, [`Four::mul_add`] included.
 //!
-//! Instructions of a processor are not inlined into closures that are not inlined themselves: lists of [`Four`] are made
-//! in loops, not by `map`.
+//! Processor instructions are not inlined into closures that are not themselves inlined. Therefore lists of [`Four`]
+//! are made in loops and not by `map`.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -26,25 +26,25 @@ pub(crate) fn run<Op: WithSimd>(arch: pulp::Arch, op: Op) -> Op::Output {
 pub(crate) struct Four<S: Simd>(S, S::f64s);
 
 impl<S: Simd> Four<S> {
-    /// Numbers of an array.
+    /// Takes the numbers of an array.
     #[inline(always)]
     pub fn new(simd: S, all: &[f64; LANES]) -> Self {
         Self(simd, pulp::bytemuck::cast(*all))
     }
 
-    /// One number four times.
+    /// The same number four times.
     #[inline(always)]
     pub fn splat(simd: S, x: f64) -> Self {
         Self(simd, simd.splat_f64s(x))
     }
 
-    /// All of them.
+    /// The four numbers as an array.
     #[inline(always)]
     pub fn array(self) -> [f64; LANES] {
         pulp::bytemuck::cast(self.1)
     }
 
-    /// self * factor + term, rounded once. Processors without such an instruction compute the same, slowly.
+    /// self * factor + term, rounded once. Processors without such an instruction compute the same result more slowly.
     #[inline(always)]
     pub fn mul_add(self, factor: Self, term: Self) -> Self {
         Self(self.0, self.0.mul_add_f64s(self.1, factor.1, term.1))
@@ -56,25 +56,25 @@ impl<S: Simd> Four<S> {
         Self(self.0, self.0.negate_mul_add_f64s(a.1, b.1, self.1))
     }
 
-    /// The root of each.
+    /// Square root of each number.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         Self(self.0, self.0.sqrt_f64s(self.1))
     }
 
-    /// The larger of each pair.
+    /// The larger number of each pair.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         Self(self.0, self.0.max_f64s(self.1, other.1))
     }
 
-    /// The smaller of each pair.
+    /// The smaller number of each pair.
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
         Self(self.0, self.0.min_f64s(self.1, other.1))
     }
 
-    /// `yes` where it is below `than`, `no` elsewhere.
+    /// `yes` where the number is below `than`, 0 elsewhere.
     #[inline(always)]
     pub fn below(self, than: Self, yes: Self, no: Self) -> Self {
         let simd = self.0;
@@ -82,7 +82,7 @@ impl<S: Simd> Four<S> {
         Self(simd, pulp::bytemuck::cast(simd.select_u64s(is_below, bits(yes.1), bits(no.1))))
     }
 
-    /// Whether any is below `than`.
+    /// Whether any number is below `than`.
     #[inline(always)]
     pub fn any_below(self, than: Self) -> bool {
         self.0.first_true_m64s(self.0.less_than_f64s(self.1, than.1)) < LANES
@@ -98,7 +98,7 @@ impl<S: Simd> Four<S> {
         Self(self.0, pulp::bytemuck::cast(bits))
     }
 
-    /// A polynomial at each, the coefficient of the highest power first.
+    /// Value of a polynomial at each number; the coefficient of the highest power comes first.
     #[inline(always)]
     pub fn polynomial<const N: usize>(self, coefficients: [f64; N]) -> Self {
         let mut sum = Self::splat(self.0, coefficients[0]);
@@ -167,7 +167,7 @@ impl<S: Simd> Four<S> {
         [scale * grown + scale, scale * grown + (scale - of(1.0))]
     }
 
-    /// Sum of all of them.
+    /// Sum of the four numbers.
     #[inline(always)]
     pub fn sum(self) -> f64 {
         let [a, b, c, d] = self.array();

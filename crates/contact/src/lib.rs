@@ -1,15 +1,16 @@
-//! Who touches whom, how hard, over what length?
+//! Contact of the tooth flanks: which points touch, with what force, over what length.
 //!
-//! Three steps, in the order of the files:
+//! The computation has three steps, in the order of the files:
 //!
 //! 1. [`flank::Candidates`]: which flank faces may touch (bounding volumes, surface against surface);
-//! 2. [`mod@slice`]: the least gap of the two profiles at each height, the contact's default; or [`nodal::closest_points`]:
-//!    gap and normal of each candidate point against the other flank's smooth surface, and of the line of least gap;
-//! 3. [`complementarity`]: forces so that g >= 0, p >= 0, p g = 0 at every point, together with the rotation that
-//!    balances the torque.
+//! 2. [`mod@slice`]: the smallest gap of the two profiles at each height, the default method; or
+//!    [`nodal::closest_points`]: gap and normal of each candidate point, and of the points along the line of smallest
+//!    gap, against the other flank's smooth surface;
+//! 3. [`complementarity`]: forces with g >= 0, p >= 0, p g = 0 at every point, together with the rotation that balances
+//!    the torque.
 //!
-//! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
-//! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
+//! Body 1 (pinion) carries the contact points; body 2 (wheel) is the surface against which they are measured. A gap g
+//! >= 0 is open; the force on body 1 acts along the outward normal of body 2. Lengths are in mm, forces in N.
 
 mod bracketing;
 pub mod complementarity;
@@ -49,5 +50,5 @@ pub use window::WindowContact;
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;
-/// Pose of a body: its own frame to the common one.
+/// Pose of a body: transformation from its own frame to the common one.
 pub type Pose = nalgebra::Isometry3<f64>;

@@ -2,28 +2,29 @@
 
 use geometry::{GearPair, Side};
 
-/// Rigid displacement of a gear from its nominal place: bearings, housing, shafts.
+/// Rigid displacement of a gear from its nominal position, by bearings, housing or shafts.
 ///
-/// The gear turns about its own axis where it then is: levers and torques are about the displaced, tilted axis. Tilts
-/// are about axes through the gear's centre at mid-face, parallel to the fixed x and y.
+/// The gear rotates about its own displaced and tilted axis, and levers and torques refer to this axis. Tilts are about
+/// axes through the gear's centre at mid-face, parallel to the fixed x and y.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Offset {
-    /// Along the line of centres, from pinion to wheel, mm.
+    /// Displacement along the line of centres, from pinion to wheel, mm.
     pub x: f64,
-    /// Across it, mm.
+    /// Displacement across the line of centres, mm.
     pub y: f64,
-    /// Along the axis, mm.
+    /// Displacement along the axis, mm.
     pub z: f64,
-    /// About x, rad: the axis leans towards -y as z grows.
+    /// Tilt about x, rad: the axis leans towards -y with increasing z.
     pub tilt_x: f64,
-    /// About y, rad: the axis leans towards +x as z grows.
+    /// Tilt about y, rad: the axis leans towards +x with increasing z.
     pub tilt_y: f64,
 }
 
-/// Deviation of the wheel's axis from the pinion's, as displacement over the face width from z = -b/2 to z = +b/2, mm, b the common
-/// face width; the parts add up.
+/// Deviation of the wheel's axis from the pinion's, as displacement over the face width from z = -b/2 to z = +b/2, mm,
+/// where b is the common face width. The parts add up.
 ///
-/// Terms after ISO/TR 10064-3, which gives the deviations over the bearing span; here they are over the **face width**.
+/// Terms follow ISO/TR 10064-3. That report gives the deviations over the bearing span; here they are over the **face
+/// width**.
 ///
 /// ```text
 /// d = f_Sigma_delta e_x + f_Sigma_beta e_y + f_in t + f_across m
@@ -31,23 +32,24 @@ pub struct Offset {
 /// tilt_x = -d_y / b,  tilt_y = d_x / b      of the wheel
 /// ```
 ///
-/// t is the direction in which the pinion's loaded flanks push the wheel, transverse, so f_in opens the gap at z = +b/2
-/// by f_in cos b_b against z = -b/2: just as a lead slope C_Hbeta = f_in cos b_b of either flank would. f_across moves
-/// the flanks along each other and has next to no effect.
+/// t is the transverse direction in which the pinion's loaded flanks push the wheel. So f_in opens the gap at z = +b/2
+/// by f_in cos b_b relative to z = -b/2, as a lead slope C_Hbeta = f_in cos b_b of either flank would. f_across moves
+/// the flanks along each other and has almost no effect.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Misalignment {
-    /// f_Sigma_beta, across the plane of axes: the wheel's axis leans towards +y (positive) as z grows.
+    /// f_Sigma_beta, perpendicular to the plane of axes; positive if the wheel's axis leans towards +y with increasing
+    /// z.
     pub deviation: f64,
-    /// f_Sigma_delta, in the plane of axes: the distance of the axes grows (positive) with z.
+    /// f_Sigma_delta, in the plane of axes; positive if the distance of the axes grows with z.
     pub inclination: f64,
-    /// f_in, in the plane of action of the driving flanks: the gap opens (positive) as z grows.
+    /// f_in, in the plane of action of the driving flanks; positive if the gap opens with increasing z.
     pub in_plane_of_action: f64,
-    /// f_across, across that plane.
+    /// f_across, perpendicular to that plane.
     pub across_plane_of_action: f64,
 }
 
 impl Misalignment {
-    /// Offset of the wheel that it amounts to when the flanks on `side` carry the load.
+    /// Equivalent offset of the wheel when the flanks on `side` carry the load.
     pub fn wheel_offset(&self, pair: &GearPair, side: Side) -> Offset {
         let (sin, cos) = pair.working_pressure_angle().sin_cos();
         let s = side.sign();
@@ -61,7 +63,7 @@ impl Misalignment {
 }
 
 impl Offset {
-    /// Whether the gear's axis leans.
+    /// Whether the gear's axis is tilted.
     pub fn is_tilted(&self) -> bool {
         self.tilt_x != 0.0 || self.tilt_y != 0.0
     }

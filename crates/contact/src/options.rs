@@ -7,19 +7,19 @@ use crate::{Offset, complementarity::Law, flank::GapSource};
 /// Discretisation of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// One line load an axial slice; bulk compliance from the mesh, local compliance in closed form.
+    /// One line load per axial slice; bulk compliance from the mesh, local compliance in closed form.
     Slice,
     /// Points of the flank mesh.
     Nodal,
 }
 
-/// Storage of the bulk compliance behind slices.
+/// Storage of the bulk compliance of slices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bulk {
     /// The mesh's own matrices, entry by entry.
     Exact,
-    /// Interpolated in a table ([`crate::BulkTable`]) that is off by at most this share of the largest self-compliance
-    /// of a slice; exact where no table of reasonable size is.
+    /// Interpolated in a table ([`crate::BulkTable`]) with an error of at most this share of the largest
+    /// self-compliance of a slice. Exact if no table of reasonable size reaches this error.
     Table(f64),
 }
 
@@ -30,43 +30,45 @@ impl Default for Bulk {
     }
 }
 
-/// Which flanks touch, where the gears stand, and how contact is made discrete.
+/// Which flanks touch, where the gears are, and how contact is discretised.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactOptions {
     /// Driving gear.
     pub driver: Driver,
-    /// Sense in which the pinion turns.
+    /// Sense of rotation of the pinion.
     pub sense: Sense,
     /// Slices or points.
     pub method: Method,
     /// Slices over the face width.
     pub slices: usize,
-    /// How the bulk compliance behind slices is held, for reduced gears.
+    /// Storage of the bulk compliance of slices, for reduced gears.
     pub bulk: Bulk,
-    /// Let tip edges press off the line of action, as deflected teeth do ([`Method::Slice`]). Off, for study only:
-    /// slices end where the undeflected flanks end, and the transmission error steps whenever a pair comes or goes
-    /// under load.
+    /// Whether tip edges may touch off the line of action, as those of deflected teeth do ([`Method::Slice`]). Without
+    /// it, which is for study only, slices end where the undeflected flanks end, and the transmission error jumps
+    /// whenever a pair enters or leaves contact under load.
     pub corner_contact: bool,
     /// Coefficient of friction.
     pub friction: f64,
     /// Contact law of points.
     pub law: Law,
-    /// Gaps between smooth flanks or between the faces of the mesh.
+    /// Surfaces between which gaps are measured: smooth flanks or faces of the mesh.
     pub gap: GapSource,
     /// Gauss points along each edge of a flank face.
     pub points_per_face_edge: usize,
-    /// Keep both flanks of the window's teeth, not the driving ones alone.
+    /// Whether both flanks of the window's teeth are kept, not only the driving ones.
     pub both_flanks: bool,
-    /// How far a flank node may lie from the smooth nominal flank, mm.
+    /// Tolerance for the distance of a flank node from the smooth nominal flank, mm.
     pub surface_tolerance: f64,
-    /// Rigid displacement of pinion and wheel: misalignment.
+    /// Rigid displacements of pinion and wheel: misalignment.
     pub offsets: [Offset; 2],
-    /// Turn by which the wheel stands off where the unloaded flanks touch, rad: transmission error counts from there.
+    /// Angle by which the zero of the transmission error differs from the wheel angle at which the unloaded flanks
+    /// touch, rad.
     pub wheel_turn: f64,
 }
 
 impl ContactOptions {
-    /// Defaults for `pair`: pinion drives counter-clockwise, 32 slices, exact contact, 6 points an edge.
+    /// Defaults for `pair`: the pinion drives and rotates counter-clockwise, 32 slices, exact contact, 6 points per
+    /// edge.
     pub fn new(pair: &GearPair) -> Self {
         Self {
             driver: Driver::Pinion,
@@ -86,7 +88,7 @@ impl ContactOptions {
         }
     }
 
-    /// The pinion's flanks that carry the load.
+    /// The pinion flanks that carry the load.
     pub fn side(&self) -> Side {
         self.driver.loaded_side(self.sense)
     }
@@ -96,7 +98,7 @@ impl ContactOptions {
         if self.both_flanks { vec![self.side(), self.side().opposite()] } else { vec![self.side()] }
     }
 
-    /// Index of the driven gear: 0 pinion, 1 wheel.
+    /// Index of the driven gear: 0 for the pinion, 1 for the wheel.
     pub fn driven(&self) -> usize {
         self.driver.driven()
     }

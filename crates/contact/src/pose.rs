@@ -1,4 +1,4 @@
-//! Where the gears stand: rigid offsets of their axes, and the wheel angle that transmission error counts from.
+//! Poses of the gears: rigid offsets of their axes, and the wheel angle from which the transmission error is counted.
 //! Theory (30), (31).
 
 use ale::{Station, ToothWindow};
@@ -7,14 +7,14 @@ use nalgebra::{Matrix3, SMatrix, Translation3, UnitQuaternion};
 
 use crate::{ContactError, ContactOptions, ContactSet, Pose, Vec3};
 
-/// Centre of a gear, at its mid-face, mm.
+/// Centre of a gear at its mid-face, mm.
 pub fn gear_centre(pair: &GearPair, options: &ContactOptions, gear: usize) -> Vec3 {
     let o = options.offsets[gear];
     let [x, z] = [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][gear];
     Vec3::new(x + o.x, o.y, z + o.z)
 }
 
-/// Pose of a gear that is turned by `angle` (rad) about its own axis.
+/// Pose of a gear rotated by `angle` (rad) about its own axis.
 pub fn gear_pose(pair: &GearPair, options: &ContactOptions, gear: usize, angle: f64) -> Pose {
     let o = options.offsets[gear];
     let mut rotation = UnitQuaternion::from_axis_angle(&Vec3::z_axis(), angle);
@@ -24,11 +24,11 @@ pub fn gear_pose(pair: &GearPair, options: &ContactOptions, gear: usize, angle: 
     Pose::from_parts(Translation3::from(gear_centre(pair, options, gear)), rotation)
 }
 
-/// Wheel angle at which the transmission error is zero, rad: the unmodified flanks touch there, unloaded, axes parallel
-/// through the displaced centres; but for [`ContactOptions::wheel_turn`].
+/// Wheel angle at which the transmission error is zero, rad: the unmodified flanks touch unloaded, with parallel axes
+/// through the displaced centres. [`ContactOptions::wheel_turn`] is added to it.
 ///
-/// A gear displaced by z along its axis has its flanks turned by -k z, k the twist of its teeth. The offset of the
-/// mid-faces is no displacement: it moves the end faces alone.
+/// The flanks of a gear displaced by z along its axis are rotated by -k z, where k is the twist of its teeth. The
+/// offset of the mid-faces is not a displacement: it moves only the end faces.
 pub fn reference_angle(pair: &GearPair, options: &ContactOptions, pinion_angle: f64) -> f64 {
     let [a, b] = [0, 1].map(|i| gear_centre(pair, options, i));
     let [z1, z2] = options.offsets.map(|o| o.z);
@@ -36,7 +36,7 @@ pub fn reference_angle(pair: &GearPair, options: &ContactOptions, pinion_angle: 
     pair.wheel_angle_at(options.side(), pinion_angle - t1, [b.x - a.x, b.y - a.y]) + t2 + options.wheel_turn
 }
 
-/// Offsets with which the gears still mesh.
+/// Checks that the gears still mesh with these offsets.
 pub fn check_offsets(pair: &GearPair, options: &ContactOptions) -> Result<(), ContactError> {
     let bad = |name, value, expected| Err(ContactError::OutOfRange { name, value, expected });
     for o in options.offsets {
@@ -66,7 +66,7 @@ pub fn check_offsets(pair: &GearPair, options: &ContactOptions) -> Result<(), Co
     Ok(())
 }
 
-/// Frames of the matrices when both gears are turned from the unloaded position.
+/// Frames of the matrices when both gears are rotated from the unloaded position.
 pub fn frames(
     pair: &GearPair,
     set: &ContactSet,
@@ -88,9 +88,9 @@ pub fn frames(
     [0, 1].map(|i| gear_pose(pair, options, i, angles[i] + turns[i] + whole[i]))
 }
 
-/// Poses of both gears displaced from `nominal` by the twelve displacements `d`: of pinion and wheel in turn x, y, z
-/// (mm) and turns about x and y (rad), common axes. The turns about z are not applied: [`frames`] takes them, about the
-/// gears' own axes.
+/// Poses of both gears displaced from `nominal` by the twelve displacements `d`: for pinion and wheel in turn x, y, z
+/// (mm) and rotations about x and y (rad), common axes. The rotations about z are not applied here; [`frames`] applies
+/// them about the gears' own axes.
 pub fn displaced(nominal: [Pose; 2], d: &[f64; 12]) -> [Pose; 2] {
     [0, 1].map(|g| {
         let at = 6 * g;
@@ -100,13 +100,19 @@ pub fn displaced(nominal: [Pose; 2], d: &[f64; 12]) -> [Pose; 2] {
     })
 }
 
-/// G of the forces on the displacements `d` of [`displaced`] that led to `poses`; none where no gear tilts and both axes are along z, and G is 1. Theory (45c).
+/// Matrix G of the forces on the displacements `d` of [`displaced`] that led to `poses`. `None` if no gear tilts and
+/// both axes are along z; then G is 1. Theory (45c).
 ///
 /// ```text
 /// f_d = G f,   d rotation/d d_k = w_k:   w_tilt = J e,   w_turn = the gear's own axis,   row of a tilt or turn of G: w'
 /// J = 1 + (1 - cos a)/a^2 [p] + (a - sin a)/a^3 [p]^2,   p = (tilt x, tilt y, 0),   a = |p|
 /// ```
-/// f: forces and moments in common axes, twelve. Work of the forces is then that of the displacements, exactly, also on an axis that is misaligned or tilted: the contact has one energy V and f_d = -dV/dd. A turn has the moment about the gear's own axis in place of that about z; a tilt has half of the other tilt's share of the moment about z taken off. J: left Jacobian of a rotation vector (Sola, Deray and Atchuthan, A micro Lie theory, 2018, eq. 145). Of the slope, -df_d/dd = G K G' holds but for terms of the size of the moments themselves, which are small beside a stiffness on a lever.
+/// f are the twelve forces and moments in common axes. With G the work of the forces equals that of the displacements
+/// exactly, also on a misaligned or tilted axis: the contact has one energy V and f_d = -dV/dd. A rotation gets the
+/// moment about the gear's own axis instead of that about z; from a tilt, half of the other tilt's share of the moment
+/// about z is subtracted. J is the left Jacobian of a rotation vector (Sola, Deray and Atchuthan, A micro Lie theory,
+/// 2018, eq. 145). The slope is -df_d/dd = G K G' except for terms of the size of the moments themselves, which are
+/// small compared with a stiffness times a lever.
 pub fn generalised(poses: &[Pose; 2], d: &[f64; 12]) -> Option<SMatrix<f64, 12, 12>> {
     let axes = poses.map(|pose| pose.rotation * Vec3::z());
     let tilts = [0, 1].map(|g| Vec3::new(d[6 * g + 3], d[6 * g + 4], 0.0));

@@ -10,7 +10,7 @@ use crate::{
     slice::Slice,
 };
 
-/// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
+/// Force and moment of the mesh on one gear, about its own displaced centre, global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Wrench {
     /// Force, N.
@@ -24,18 +24,19 @@ pub struct Wrench {
 pub struct MeshForce {
     /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
     pub wrench: [Wrench; 2],
-    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes,
-    /// in the order pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    /// Tangent df/dq. f are forces and moments, q displacements (mm) and small rotations (rad) about the gears'
+    /// centres, in common axes. The order is pinion x y z, rotations about x y z, then the same for the wheel. N/mm, N,
+    /// N mm.
     ///
     /// ```text
     /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
     /// ```
-    /// Exact while the contact points stay where they are on the flanks; their motion along the flanks changes it by
+    /// Exact while the contact points stay fixed on the flanks; their motion along the flanks changes the tangent by
     /// about a thousandth of its largest entries. Symmetric and negative semi-definite without friction.
     pub tangent: [[f64; 12]; 12],
-    /// Normal force of each pair of the window, N, in order of running numbers.
+    /// Normal force of each pair of the window, N, in ascending running number.
     pub pair_forces: Vec<f64>,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub iterations: usize,
     /// Largest violation of g >= 0, F >= 0, F g = 0 relative to the largest approach.
     pub residual: f64,
@@ -48,22 +49,22 @@ impl MeshForce {
     }
 }
 
-/// Part of the flanks that presses.
+/// Part of the flanks that is in contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Site {
     /// Flank against flank.
     Flank,
-    /// A slice that ends at an end face of either gear.
+    /// A slice at an end face of either gear.
     EndFace,
-    /// The pinion's tip edge presses, off the line of action, or cuts the band off.
+    /// The pinion's tip edge touches off the line of action, or cuts the band off.
     PinionTipEdge,
-    /// The wheel's tip edge.
+    /// The wheel's tip edge touches off the line of action, or cuts the band off.
     WheelTipEdge,
 }
 
 impl Site {
-    /// All of them.
+    /// All parts.
     pub const ALL: [Self; 4] = [Self::Flank, Self::EndFace, Self::PinionTipEdge, Self::WheelTipEdge];
 }
 
@@ -72,9 +73,9 @@ impl Site {
 pub struct SliceResult {
     /// Height on the pinion, mm.
     pub z: f64,
-    /// Height on the wheel, mm: another one where the wheel is displaced along its axis.
+    /// Height on the wheel, mm; it differs if the wheel is displaced along its axis.
     pub wheel_z: f64,
-    /// Side of the teeth that touches, the same on both gears.
+    /// Side of the teeth in contact, the same on both gears.
     pub side: Side,
     /// Roll angle of the contact on pinion and wheel, rad.
     pub roll: [f64; 2],
@@ -84,21 +85,21 @@ pub struct SliceResult {
     pub half_width: f64,
     /// Largest pressure across the band, MPa.
     pub pressure: f64,
-    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0
-    /// for flank on flank.
+    /// Distance beyond a tip edge at which the smooth flanks would touch, mm of arc: the edge touches off the line of
+    /// action. 0 for flank on flank.
     pub off_line: f64,
-    /// Part of the flanks that presses here.
+    /// Part of the flanks that is in contact here.
     pub site: Site,
 }
 
 impl SliceResult {
-    /// Whether the pressure is larger than another's, by more than round-off: equal slices of a symmetric pair have an
-    /// order.
+    /// Whether the pressure is larger than that of another slice by more than round-off. So equal slices of a symmetric
+    /// pair have a definite order.
     pub fn is_harder(&self, other: &Self) -> bool {
         self.pressure > other.pressure * (1.0 + 1e-9)
     }
 
-    /// The slice with the largest pressure, the first of those that have it but for round-off.
+    /// The slice with the largest pressure; the first one if several are equal except for round-off.
     pub fn hardest<'a>(slices: impl IntoIterator<Item = &'a Self>) -> Option<&'a Self> {
         slices.into_iter().fold(None, |best, s| if best.is_none_or(|b: &Self| s.is_harder(b)) { Some(s) } else { best })
     }
@@ -119,17 +120,17 @@ pub fn wrenches(poses: &[Pose; 2], rows: &[ContactRow], forces: &[f64]) -> [Wren
     })
 }
 
-/// What the local approach of a slice is under its force; nothing without one.
+/// State of a slice's local approach under its force; zero without a force.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SliceState {
     /// Approach, band and pressure.
     pub local: LocalState,
-    /// What the local approach stores beyond half of force times approach, N mm.
+    /// Energy stored in the local approach minus half of force times approach, N mm.
     pub curved_energy: f64,
 }
 
 impl SliceState {
-    /// State of a slice of a length (mm) under a force (N).
+    /// State of a slice of a given length (mm) under a force (N).
     pub fn new(law: &LocalLaw, length: f64, force: f64) -> Self {
         if force <= 0.0 {
             return Self::default();
@@ -138,13 +139,13 @@ impl SliceState {
         Self { local: law.under(load), curved_energy: length * law.curved_energy(load) }
     }
 
-    /// What part of the flanks its slice presses with.
+    /// Part of the flanks that is in contact at its slice.
     pub fn site(&self, slice: &Slice) -> Site {
         site(slice, self.local.half_width)
     }
 }
 
-/// A loaded slice as the results have it.
+/// A loaded slice in the form of the results.
 pub fn slice_result(slice: &Slice, side: Side, force: f64, state: &LocalState) -> SliceResult {
     let line_load = force / slice.length;
     SliceResult {

@@ -15,9 +15,9 @@ use crate::{
     slice::{HalfTeeth, SliceSet, TableFlanks},
 };
 
-/// Everything the contact of one window needs, in the frames of the window's matrices.
+/// All data that the contact of one window needs, in the frames of the window's matrices.
 ///
-/// Copies share all but where the window stands.
+/// Copies share everything except the position of the window.
 #[derive(Debug, Clone)]
 pub struct ContactSet {
     shared: Arc<Shared>,
@@ -69,7 +69,7 @@ impl ContactSet {
     /// Sets up the flanks of a window.
     ///
     /// # Errors
-    /// [`ContactError`] when a flank is missing or does not lie on its smooth surface.
+    /// [`ContactError`] if a flank is missing or does not lie on its smooth surface.
     pub fn new(
         pair: &GearPair,
         gears: &[ElasticGear; 2],
@@ -114,8 +114,8 @@ impl ContactSet {
         Ok(Self { shared, windows })
     }
 
-    /// A window of the same gears with other micro-geometry, `pair`'s, and another number of slices: matrices, tables and
-    /// faces are shared. `None` where that window has matrices of its own.
+    /// A window of the same gears with the micro-geometry of `pair` and another number of slices; matrices, tables and
+    /// faces are shared. `None` if that window has different matrices.
     ///
     /// # Errors
     /// [`ContactError`] for a window that the gears do not have.
@@ -168,7 +168,8 @@ impl ContactSet {
         Ok(Some(next))
     }
 
-    /// Whether this set serves another window too: same matrices, same teeth in their frames.
+    /// Moves this set to another window and returns whether that is possible: the matrices and the teeth in their
+    /// frames must be the same.
     pub fn move_to(&mut self, gears: &[ElasticGear; 2], window: &ToothWindow) -> Result<bool, ContactError> {
         let next = self.windows_with_these_matrices(gears, window)?;
         let (Some(mine), Some(next)) = (&mut self.windows, next) else { return Ok(false) };
@@ -180,8 +181,8 @@ impl ContactSet {
         Ok(true)
     }
 
-    /// The set of another window with the same matrices: this one where it serves, else with the flanks of the teeth there.
-    /// `None` where that window has matrices of its own.
+    /// The set of another window with the same matrices: this one if it serves that window, otherwise one with the
+    /// flanks of the teeth there. `None` if that window has different matrices.
     ///
     /// # Errors
     /// [`ContactError`] for a window that the gears do not have.
@@ -196,7 +197,7 @@ impl ContactSet {
         if own.move_to(gears, window)? { Ok(Some(own)) } else { self.modified(pair, gears, window, options) }
     }
 
-    /// Whether another window's flanks and matrices are these.
+    /// Whether another window has the same flanks and matrices.
     pub fn shares_flanks(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.shared, &other.shared)
     }
@@ -206,7 +207,7 @@ impl ContactSet {
         self.windows.as_ref()
     }
 
-    /// First tooth of each gear's window in its matrices' frame.
+    /// First tooth of each gear's window in the frame of its matrices.
     pub fn first_teeth(&self) -> [u32; 2] {
         self.shared.first
     }
@@ -216,7 +217,7 @@ impl ContactSet {
         &self.shared.patches
     }
 
-    /// Contact points of the window, or slices of all its pairs.
+    /// Number of contact points of the window, or of slices of all its pairs.
     pub fn candidate_count(&self) -> usize {
         let points = |nodal: &NodalFlanks| nodal.points.iter().map(Vec::len).sum();
         let slices = |slices: &SliceSet| self.pairs().len() * slices.stations().len();
@@ -228,7 +229,8 @@ impl ContactSet {
         self.shared.sides[0][patch]
     }
 
-    /// Patch of the pinion's (0) or wheel's (1) flank of a window pair, counted from 0 in order of running numbers.
+    /// Patch of the pinion's (0) or wheel's (1) flank of a window pair; pairs are counted from 0 in ascending running
+    /// number.
     pub fn patch_of(&self, gear: usize, pair: usize, side: Side) -> Option<usize> {
         let count = self.shared.patches[gear].len() / self.kept_sides();
         // The wheel's teeth run against the pair numbers.
@@ -268,10 +270,10 @@ impl ContactSet {
         self.shared.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
     }
 
-    /// Points of least gap of the window's pairs with the gears at `poses`; none where a point needs an area (penalty),
-    /// or where gaps are not those of the smooth flanks.
+    /// Points of smallest gap of the window's pairs with the gears at `poses`. Empty if points need an area (penalty
+    /// law), or if gaps are not those of the smooth flanks.
     ///
-    /// Taken at the unloaded pose, so that they do not move while the pose is iterated.
+    /// They are taken at the unloaded pose, so that they do not move while the pose is iterated.
     pub fn line_points(&self, options: &ContactOptions, poses: &[Pose; 2]) -> LinePoints {
         let mut line = LinePoints::new();
         let Some(nodal) = &self.shared.nodal else { return line };
@@ -285,8 +287,8 @@ impl ContactSet {
         line
     }
 
-    /// The flanks of the window for a search of points; `line` holds the points of least gap. `None` where contact is
-    /// made of slices.
+    /// The flanks of the window for a search of points; `line` has the points of smallest gap. `None` for contact of
+    /// slices.
     pub fn scene<'a>(&'a self, options: &ContactOptions, line: &'a LinePoints) -> Option<Scene<'a>> {
         let nodal = self.shared.nodal.as_ref()?;
         Some(Scene {
@@ -300,7 +302,7 @@ impl ContactSet {
         })
     }
 
-    /// Slices, when contact is made of them.
+    /// The slices, for contact of slices.
     pub fn slices(&self) -> Option<&SliceSet> {
         self.shared.slices.as_deref()
     }
@@ -311,8 +313,8 @@ impl ContactSet {
         (0..self.shared.patches[0].len()).filter_map(partner).collect()
     }
 
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under forces (N) on rows with
-    /// the nodes that they rest on; `None` where no matrices of flanks are known, or not of their whole width.
+    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices, under forces (N) on rows
+    /// with known nodes. `None` if there are no matrices of the flanks, or not for their whole width.
     pub fn displacements_under(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
         let [a, b] = self.windows.as_ref()?;
         let compliance = [a.reduced.compliance().as_ref(), b.reduced.compliance().as_ref()];
@@ -322,8 +324,8 @@ impl ContactSet {
         Some(Condensed::new(rows, compliance).displacements(forces))
     }
 
-    /// Forces (N) on both gears' boundary coordinates, in the matrices' frames, by forces on rows with the nodes that they
-    /// rest on; `None` where no matrices of flanks are known.
+    /// Forces (N) on both gears' boundary coordinates, in the frames of the matrices, from forces on rows with known
+    /// nodes. `None` if there are no matrices of the flanks.
     pub fn forces_of(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
         let windows = self.windows.as_ref()?;
         Some([0, 1].map(|i| boundary_forces(rows, forces, i, windows[i].reduced.coordinates())))
@@ -339,7 +341,7 @@ impl ContactSet {
         }
     }
 
-    /// The elastic model behind the rows.
+    /// The elastic model for the rows.
     pub fn bodies<'a>(
         &'a self,
         gears: &'a [ElasticGear; 2],

@@ -1,4 +1,4 @@
-//! Flanks, matrices and solver of a window that slides.
+//! Flanks, matrices and solver of a sliding window.
 
 use ale::ToothWindow;
 use geometry::GearPair;
@@ -11,7 +11,7 @@ use crate::{ContactError, ContactOptions, ContactSet, ElasticContact, MeshForce,
 pub struct WindowContact {
     /// Flanks and matrices.
     pub set: ContactSet,
-    /// Solver; none for points, and for gears with all their degrees of freedom.
+    /// Solver; `None` for points, and for gears with all their degrees of freedom.
     pub slices: Option<MeshContact>,
 }
 
@@ -19,18 +19,18 @@ impl WindowContact {
     /// Contact with the flanks and matrices of a window.
     ///
     /// # Errors
-    /// [`ContactError`].
+    /// [`ContactError`] if the solver cannot be set up.
     pub fn new(pair: &GearPair, set: ContactSet, options: &ContactOptions) -> Result<Self, ContactError> {
         let sliced = set.slices().is_some() && set.windows().is_some();
         let slices = sliced.then(|| MeshContact::new(pair, set.clone(), options)).transpose()?;
         Ok(Self { set, slices })
     }
 
-    /// Forces of the mesh with the gears' frames at `poses`, and their tangent, whatever touches: points or slices,
-    /// gears reduced or whole.
+    /// Forces of the mesh with the gears' frames at `poses`, and their tangent, for every kind of contact: points or
+    /// slices, gears reduced or whole.
     ///
     /// # Errors
-    /// [`ContactError`] when the contact problem cannot be solved.
+    /// [`ContactError`] if the contact problem cannot be solved.
     pub fn evaluate(
         &mut self,
         pair: &GearPair,
@@ -44,10 +44,10 @@ impl WindowContact {
         }
     }
 
-    /// Enters another window, with the flanks and matrices of `set` where they serve it.
+    /// Enters another window, with the flanks and matrices of `set` if they serve it.
     ///
     /// # Errors
-    /// [`ContactError`] when the window cannot be set up.
+    /// [`ContactError`] if the window cannot be set up.
     pub fn enter(
         &mut self,
         pair: &GearPair,

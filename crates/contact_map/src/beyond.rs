@@ -1,4 +1,4 @@
-//! A map beyond the ends of its tilts. Theory (73a).
+//! Extrapolation of a map beyond its range of tilts. Theory (73a).
 
 use crate::{
     load_axis::knot,

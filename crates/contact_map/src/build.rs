@@ -1,4 +1,4 @@
-//! Making a map: samples, finer and finer, until it agrees with the contact between them. Theory (73).
+//! Makes a map from samples, which are refined until the map agrees with the contact between them. Theory (73).
 
 use std::{
     collections::BTreeMap,
@@ -19,12 +19,13 @@ use crate::{
     spline::Axis,
 };
 
-/// How far a map is made: contacts solved so far, and about how many it takes until it is held against the contact next.
+/// Progress of a map: contacts solved so far, and the approximate number needed before the map is next compared with
+/// the contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MapWork {
-    /// Contacts solved.
+    /// Number of contacts solved.
     pub contacts: usize,
-    /// Contacts of the map in its present size, about; more when a check finds it too coarse.
+    /// Approximate number of contacts for the map in its present size; it grows if a check finds the map too coarse.
     pub of_contacts: usize,
 }
 
@@ -45,13 +46,13 @@ const MOST_CONTACTS: usize = 200_000;
 type Columns = BTreeMap<usize, Vec<Vec<Node>>>;
 
 impl ContactMap {
-    /// A map of the contact that `at` gives at a phase of the mesh cycle (0 .. 1); `watch` hears how far it is.
+    /// Makes a map of the contact that `at` gives at a phase of the mesh cycle (0 .. 1); `watch` receives its progress.
     ///
-    /// Phases, forces and tilts are doubled, whichever the error comes from, until the check at random places is within
-    /// the tolerance, or a finer map would cost too much.
+    /// The number of phases, forces or tilts is doubled, whichever causes the largest error, until the check at random
+    /// positions is within the tolerance, or until a finer map would cost too much.
     ///
     /// # Errors
-    /// [`MapError`].
+    /// [`MapError`] if no map is accurate enough.
     pub fn build<C, E>(
         plan: &MapPlan,
         watch: MapWatch<'_>,

@@ -1,4 +1,4 @@
-//! Samples of the contact at one phase and tilt, under one force after the other.
+//! Samples of the contact at one phase and tilt, under increasing forces.
 
 use crate::{ContactSample, LoadedSlice, MapError, PhaseContact, load_axis::LoadAxis};
 

@@ -1,4 +1,4 @@
-//! Damping between flanks that carry force. Theory (74).
+//! Damping between loaded flanks. Theory (74).
 
 use crate::{
     load_axis::{along, cubic},
@@ -9,18 +9,18 @@ use crate::{
 /// Force of dampers along approach and tilt.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct MapDamping {
-    /// Against the rates: N, N mm.
+    /// Force against the rates: N, N mm.
     pub force: [f64; 2],
-    /// Slopes of the force over the rates: N s/mm, N s, N mm s.
+    /// Derivatives of the force by the rates: N s/mm, N s, N mm s.
     pub rate_slope: [[f64; 2]; 2],
-    /// Slope of the force along the approach over the approach, N/mm.
+    /// Derivative of the force along the approach by the approach, N/mm.
     pub approach_slope: f64,
     /// Loaded length, mm.
     pub length: f64,
 }
 
 impl ContactMap {
-    /// Damping of `per_length` (N s/mm^2) at rates of approach (mm/s) and tilt (rad/s).
+    /// Damping with coefficient `per_length` (N s/mm^2) at rates of approach (mm/s) and tilt (rad/s).
     pub fn damping(&self, place: &CutPlace, contact: &MapContact, rates: [f64; 2], per_length: f64) -> MapDamping {
         let Some([load, by_approach]) = contact.load else { return MapDamping::default() };
         let [[l0, l1, l2], [d0, ..]] = self.lengths(place, load);

@@ -1,10 +1,10 @@
-//! Why there is no map.
+//! Errors of maps.
 
 /// No map of the contact was made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapError<E> {
-    /// The contact itself could not be solved.
+    /// The contact itself cannot be solved.
     #[error("at phase {phase:.6}, approach {approach_um:.4} um: {source}")]
     Contact {
         /// Phase of the mesh cycle, 0 .. 1.
@@ -14,14 +14,14 @@ pub enum MapError<E> {
         /// Error of the contact.
         source: E,
     },
-    /// No approach was found at which the mesh presses with a force.
+    /// No approach was found at which the mesh has a given force.
     #[error("at phase {phase:.6}: no approach gives {force_n:.6} N, the nearest {found_n:.6} N")]
     NoApproach {
         /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
-        /// Wanted, N.
+        /// Force wanted, N.
         force_n: f64,
-        /// Last found, N.
+        /// Last force found, N.
         found_n: f64,
     },
     /// The approach does not grow with the force.
@@ -32,24 +32,24 @@ pub enum MapError<E> {
         /// Force, N.
         force_n: f64,
     },
-    /// The map is off by more than was allowed.
+    /// The error of the map exceeds the permitted error.
     #[error(
         "a map of {phases} phases and {loads} forces is off by {error:.1e} of the mean approach, allowed is {allowed:.1e}"
     )]
     Coarse {
-        /// Phases of the finest map.
+        /// Number of phases of the finest map.
         phases: usize,
-        /// Forces of the finest map.
+        /// Number of forces of the finest map.
         loads: usize,
-        /// Error of the map, relative.
+        /// Relative error of the map.
         error: f64,
-        /// Largest error allowed, relative.
+        /// Largest permitted relative error.
         allowed: f64,
     },
-    /// A request without meaning.
+    /// A value in the request is out of range.
     #[error("{name} = {value} must be {expected}")]
     OutOfRange {
-        /// Which.
+        /// Name of the quantity.
         name: &'static str,
         /// Value of the quantity.
         value: f64,

@@ -1,4 +1,4 @@
-//! A map held against the contact between its places. Theory (73), (74b).
+//! Comparison of a map with the contact between its samples. Theory (73), (74b).
 
 use rayon::prelude::*;
 
@@ -31,7 +31,7 @@ impl Errors {
         Self { approach, friction: FrictionError { rms: friction[0], largest: friction[1] } }
     }
 
-    /// The larger one: of the approach over the mean deflection, of friction over the force.
+    /// The larger relative error: of the approach divided by the mean deflection, or of friction divided by the force.
     pub fn relative(&self, deflection: f64) -> f64 {
         (self.approach[0] / deflection).max(self.friction.rms)
     }

@@ -1,4 +1,4 @@
-//! Friction between flanks that press. Theory (74b).
+//! Friction between flanks in contact. Theory (74b).
 
 use crate::{
     ContactMap, CutPlace, LoadedSlice, MapContact, OffsetMap,
@@ -10,17 +10,17 @@ use crate::{
 /// Friction at one state.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct MapFriction {
-    /// Force on gear 1 along the sliding (N), its moments along the path of contact and over the face (N mm), and what
-    /// normal forces have along the tilt beside -dV/d tilt (N mm).
+    /// Force on gear 1 along the sliding direction (N), its moments along the path of contact and over the face (N mm),
+    /// and the part of the normal forces' moment along the tilt that is not in -dV/d tilt (N mm).
     pub force: [f64; 4],
-    /// Their slopes over approach and tilt.
+    /// Their derivatives by approach and tilt.
     pub slopes: [[f64; 2]; 4],
 }
 
 const PARTS: PartsWanted = PartsWanted { phase: false, tilt: true };
 
 impl ContactMap {
-    /// Whether its flanks have friction.
+    /// Whether the flanks have friction.
     pub fn has_friction(&self) -> bool {
         self.friction.is_some()
     }
@@ -69,7 +69,8 @@ impl ContactMap {
 }
 
 impl OffsetMap {
-    /// Friction at a place of this map and an approach (mm) with its contact; none where flanks are apart, or have none.
+    /// Friction at a position of this map and an approach (mm) with its contact; zero if the flanks are apart or have
+    /// no friction.
     pub fn friction(&self, place: &CutPlace, approach: f64, contact: &MapContact) -> MapFriction {
         let (map, mut all) = (self.map(), MapFriction::default());
         let Some(table) = map.friction.as_ref().filter(|_| contact.force > 0.0) else { return all };

@@ -1,4 +1,4 @@
-//! Friction of the pairs of teeth of a map. Theory (74b).
+//! Friction of the tooth pairs of a map. Theory (74b).
 
 use serde::{Deserialize, Serialize};
 

@@ -1,5 +1,5 @@
-//! What force does the mesh give at a phase, an approach and a tilt? A table of the contact, made to a stated error,
-//! in place of the contact itself.
+//! Maps of the mesh contact: the mesh force as a function of phase, approach and tilt, in a table with a stated error
+//! that replaces the contact solution.
 
 mod beyond;
 mod build;

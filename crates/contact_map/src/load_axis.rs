@@ -1,14 +1,15 @@
-//! The load axis of a map: force over its parameter, and what is read off a curve of approach over load. Theory (72).
+//! The load axis of a map: force as a function of its parameter, and evaluation of a curve of approach over load.
+//! Theory (72).
 
 use crate::spline::Axis;
 
-/// Places over load are those of evenly spaced square roots of the force,
+/// The grid points on the load axis are evenly spaced in the square root of the force,
 ///
 /// ```text
 /// F = F_max (nu / n)^2,   nu = 0 .. n
 /// ```
-/// Lines of contact that grow shorter with load, and tips that press a point, then have approaches that are smooth in
-/// nu down to no load at all.
+/// Then the approach is a smooth function of nu down to zero load, also for contact lines that become shorter with
+/// decreasing load and for tips with point contact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LoadAxis {
     intervals: usize,
@@ -16,24 +17,24 @@ pub struct LoadAxis {
 }
 
 impl LoadAxis {
-    /// Axis up to `force` (N) in so many intervals.
+    /// Axis up to `force` (N) with a number of intervals.
     pub fn new(intervals: usize, force: f64) -> Self {
         Self { intervals, force }
     }
 
-    /// Spline axis of the places.
+    /// Spline axis of the grid points.
     pub fn axis(self) -> Axis {
         Axis::Open(self.intervals)
     }
 
-    /// Force at a place, N.
+    /// Force at a position on the axis, N.
     #[inline]
     pub fn force(self, place: f64) -> f64 {
         let part = place / self.intervals as f64;
         self.force * part * part
     }
 
-    /// Place of a force (N).
+    /// Position of a force (N) on the axis.
     pub fn place(self, force: f64) -> f64 {
         (force / self.force).sqrt() * self.intervals as f64
     }
@@ -46,9 +47,9 @@ impl LoadAxis {
     }
 }
 
-/// A curve over load: cubic splines. What belongs to an interval is made of its four coefficients where it is asked for:
-/// of a place in a motion that is one interval of all. Integrals from no load on are those of whole intervals, which are
-/// summed once, and of a part of one.
+/// A curve over load: cubic splines. The polynomial of an interval is computed from its four coefficients on request,
+/// because a motion usually needs only one interval. Integrals from zero load consist of those of whole intervals,
+/// which are summed once, and of a part of one interval.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LoadCurve {
     axis: LoadAxis,
@@ -59,14 +60,14 @@ pub struct LoadCurve {
 }
 
 impl LoadCurve {
-    /// Empties the curve and keeps its memory.
+    /// Clears the curve and keeps its memory.
     pub fn clear(&mut self, axis: LoadAxis) {
         self.axis = axis;
         self.coefficients.clear();
         self.coefficients.resize(axis.intervals + 3, 0.0);
     }
 
-    /// Adds rows of coefficients with weights.
+    /// Adds rows of coefficients, multiplied by weights.
     #[inline]
     pub fn add(&mut self, weights: &[f64; 4], rows: [&[f64]; 4]) {
         let [w0, w1, w2, w3] = weights;
@@ -82,7 +83,7 @@ impl LoadCurve {
         self.coefficients.iter_mut().for_each(|k| *k += constant);
     }
 
-    /// Sums up the integrals of whole intervals, from their moments over the place: the curve is whole.
+    /// Sums the integrals of whole intervals, from their moments over the axis; the curve is then complete.
     pub fn close(&mut self) {
         let Self { axis, coefficients, before } = self;
         let n = axis.intervals;
@@ -103,7 +104,7 @@ impl LoadCurve {
         }
     }
 
-    /// Coefficients of the splines in an interval.
+    /// Spline coefficients of an interval.
     #[inline]
     pub fn in_cell(&self, cell: usize) -> [f64; 4] {
         let k = &self.coefficients[cell..cell + 4];
@@ -123,7 +124,7 @@ impl LoadCurve {
         knot([k[0], k[1], k[2]])
     }
 
-    /// Value and slope over nu. Beyond the largest force it goes on in a straight line over force.
+    /// Value and derivative by nu. Beyond the largest force the curve is linear in the force.
     #[inline]
     pub fn value(&self, place: f64) -> [f64; 2] {
         let axis = self.axis;
@@ -151,7 +152,7 @@ impl LoadCurve {
         self.axis.force_slope(1.0) * self.before[cell]
     }
 
-    /// Integral over force from none to that of a place.
+    /// Integral over the force from zero to a position on the axis.
     pub fn integral(&self, place: f64) -> f64 {
         let axis = self.axis;
         let n = axis.intervals as f64;
@@ -173,7 +174,7 @@ impl LoadCurve {
         low
     }
 
-    /// Place at which a curve that grows has a value beyond that of its beginning.
+    /// Position at which an increasing curve exceeds its first value by a given amount.
     pub fn solve(&self, value: f64) -> f64 {
         let n = self.axis.intervals;
         let end = self.knot(n);

@@ -1,4 +1,4 @@
-//! The map and what it says of a state.
+//! The map and its evaluation at a state.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,8 +17,8 @@ use crate::{
 /// ```text
 /// X(phase, tilt, F): approach under the force F;   U* = integral of X dF from 0 to F,   V = F X - U*
 /// ```
-/// The map holds X. Forces, the moment, the energy and their tangents are all taken from it, so that forces are the
-/// exact derivative of the energy. Flanks whose approach is below X(F = 0) are apart, and nothing acts.
+/// The map stores the approach X. Forces, the moment, the energy and their tangents are all derived from it, so forces
+/// are the exact derivative of the energy. Flanks whose approach is below X(F = 0) are apart, and all forces are zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ContactMap {
     pub(crate) phases: usize,
@@ -46,20 +46,20 @@ pub struct MapContact {
     pub moment: f64,
     /// Elastic energy V, N mm.
     pub energy: f64,
-    /// dV/d phase with approach and tilt held, N mm.
+    /// dV/d phase at constant approach and tilt, N mm.
     pub phase_rate: f64,
-    /// Second derivatives of V over approach and tilt: N/mm, N, N mm.
+    /// Second derivatives of V by approach and tilt: N/mm, N, N mm.
     pub stiffness: [[f64; 2]; 2],
     /// Place over load and d place / d approach; none where flanks are apart.
     pub(crate) load: Option<[f64; 2]>,
 }
 
-/// What is wanted of a state beside the force and its stiffness.
+/// Quantities requested at a state in addition to the force and its stiffness.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Wanted {
-    /// [`MapContact::energy`].
+    /// Whether [`MapContact::energy`] is requested.
     pub energy: bool,
-    /// [`MapContact::phase_rate`].
+    /// Whether [`MapContact::phase_rate`] is requested.
     pub phase_rate: bool,
 }
 
@@ -73,13 +73,13 @@ pub(crate) struct Beyond {
     pub factors: [f64; 3],
 }
 
-/// A map at one phase and tilt: what is left is a function of the approach. Whoever asks for several approaches there
-/// has most of the work done once.
+/// A map at one phase and tilt, as a function of the approach alone. If several approaches are evaluated there, most of
+/// the work is done once.
 ///
-/// One that was never asked for stands nowhere.
+/// The default value has no position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPlace {
-    /// Phase (mesh cycles) and tilt (rad) that it was made for.
+    /// Phase (mesh cycles) and tilt (rad) for which it was made.
     pub at: [f64; 2],
     pub(crate) phase: Splines,
     pub(crate) tilt: Splines,
@@ -121,17 +121,17 @@ impl ContactMap {
         if self.tilts == 0 { Axis::Single } else { Axis::Open(self.tilts) }
     }
 
-    /// How good it is, and what it cost.
+    /// Accuracy and cost of the map.
     pub fn certificate(&self) -> &MapCertificate {
         &self.certificate
     }
 
-    /// Largest force of the map, N. Beyond it approaches grow with their last slope.
+    /// Largest force of the map, N. Beyond it the approach grows linearly.
     pub fn largest_force(&self) -> f64 {
         self.force
     }
 
-    /// Least and largest tilt of the map, rad; none where it has no tilt.
+    /// Smallest and largest tilt of the map, rad; `None` if it has no tilt.
     pub fn tilts(&self) -> Option<[f64; 2]> {
         (self.tilts > 0).then_some(self.tilt)
     }
@@ -140,7 +140,7 @@ impl ContactMap {
         self.tilts as f64 / (self.tilt[1] - self.tilt[0])
     }
 
-    /// All that belongs to a phase (mesh cycles) and a tilt (rad).
+    /// The map at a phase (mesh cycles) and a tilt (rad).
     pub fn place(&self, phase: f64, tilt: f64) -> CutPlace {
         let mut place = CutPlace::default();
         self.move_place(&mut place, [phase, tilt]);
@@ -246,23 +246,23 @@ impl ContactMap {
         self.contact(&self.place(phase, tilt), approach, wanted)
     }
 
-    /// Approach (mm) at which flanks touch first, at a place of this map.
+    /// Approach (mm) at which the flanks first touch, at a position of this map.
     pub fn first_touch(&self, place: &CutPlace) -> f64 {
         place.begin
     }
 
-    /// Elastic energy V at a place of this map and an approach (mm), N mm.
+    /// Elastic energy V at a position of this map and an approach (mm), N mm.
     pub fn energy(&self, place: &CutPlace, approach: f64) -> f64 {
         let found = self.load(place, approach);
         found.map_or(0.0, |load| self.load_axis().force(load) * approach - place.curve.integral(load))
     }
 
-    /// Force along the approach at a place of this map and an approach (mm), N.
+    /// Force along the approach at a position of this map and an approach (mm), N.
     pub fn force(&self, place: &CutPlace, approach: f64) -> f64 {
         self.load(place, approach).map_or(0.0, |load| self.load_axis().force(load))
     }
 
-    /// The contact at a place of this map and an approach (mm).
+    /// The contact at a position of this map and an approach (mm).
     pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
         let axis = self.load_axis();
         let curve = &place.curve;

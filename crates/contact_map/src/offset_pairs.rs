@@ -1,4 +1,4 @@
-//! A map whose pairs of teeth stand nearer to each other or farther apart: pitch errors. Theory (74a).
+//! A map whose tooth pairs are closer together or farther apart because of pitch errors. Theory (74a).
 
 use std::sync::Arc;
 
@@ -11,19 +11,19 @@ use crate::{
     pair_sums::PairSums,
 };
 
-/// Offsets of the teeth of two gears, mm along the normal: positive where a tooth stands nearer to its mate.
+/// Offsets of the teeth of two gears, mm along the normal; positive if a tooth is nearer to its mate.
 ///
 /// ```text
 /// e(m) = e_1[m mod z_1] + e_2[-m mod z_2]        m: number of the pair of teeth
 /// ```
-/// Gear 2 turns the other way, so that its teeth come in descending order.
+/// Gear 2 rotates in the opposite sense, so its teeth come in descending order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PairOffsets {
     teeth: [Vec<f64>; 2],
 }
 
 impl PairOffsets {
-    /// Offsets of the teeth of gear 1 and gear 2, an entry a tooth; an empty list for a gear without offsets.
+    /// Offsets of the teeth of gear 1 and gear 2, one entry per tooth; an empty list for a gear without offsets.
     pub fn new(teeth: [Vec<f64>; 2]) -> Self {
         Self { teeth }
     }
@@ -37,18 +37,17 @@ impl PairOffsets {
         of(&self.teeth[0], pair) + of(&self.teeth[1], -pair)
     }
 
-    /// Whether no tooth has one.
+    /// Whether no tooth has an offset.
     pub fn is_none(&self) -> bool {
         self.teeth.iter().flatten().all(|e| *e == 0.0)
     }
 
-    /// Mesh cycles after which the same teeth meet again.
+    /// Number of mesh cycles after which the same teeth meet again.
     pub fn period(&self) -> u64 {
         Self::cycles([0, 1].map(|g| self.teeth[g].len().max(1) as u64))
     }
 
-    /// Mesh cycles after which teeth meet again that come back after so many cycles on either gear: their least common
-    /// multiple.
+    /// Least common multiple of the two numbers of mesh cycles after which the teeth of either gear repeat.
     pub fn cycles([a, b]: [u64; 2]) -> u64 {
         let (mut x, mut y) = (a, b);
         while y > 0 {
@@ -58,26 +57,26 @@ impl PairOffsets {
     }
 }
 
-/// A map of teeth that are alike, and offsets of these teeth.
+/// A map of identical teeth, and offsets of these teeth.
 ///
 /// ```text
 /// V(c, x, gamma) = sum over m of U_m(c, x + e_m, gamma),   U_m = integral of s(c - m, gamma, F) F dy,   F: of the map at the approach y
 /// ```
-/// Each pair presses as it does in the map at its own approach. Exact where gears are linear and all pairs touch, and
-/// where pairs do not feel each other; else off by what a pair that has parted no longer does to its neighbours.
-/// Without offsets it is the map.
+/// Each pair has the force that it has in the map at its own approach. This is exact if gears are linear and all pairs
+/// touch, and if pairs do not influence each other. Otherwise the error is the missing influence of a separated pair on
+/// its neighbours. Without offsets it is the map itself.
 #[derive(Debug, Clone)]
 pub struct OffsetMap {
     map: Arc<ContactMap>,
     offsets: Option<Arc<PairOffsets>>,
 }
 
-/// Error of a map with offsets beside the contact of the teeth themselves.
+/// Error of a map with offsets, compared with the contact of the teeth themselves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OffsetError {
-    /// Places at which it was held against the contact.
+    /// Number of positions of the comparison.
     pub checks: usize,
-    /// Root mean square of the approach's error there, mm.
+    /// Root mean square error of the approach there, mm.
     pub rms_mm: f64,
     /// Largest error of the approach there, mm.
     pub largest_mm: f64,
@@ -92,22 +91,22 @@ const STEPS: usize = 60;
 /// Part of the force at the least load from which on a pair counts as touching first.
 const TOUCHES: f64 = 1e-2;
 impl OffsetMap {
-    /// A map with offsets; the map alone where there are none.
+    /// A map with offsets; the map alone if there are none.
     pub fn new(map: Arc<ContactMap>, offsets: PairOffsets) -> Self {
         Self { map, offsets: (!offsets.is_none()).then(|| Arc::new(offsets)) }
     }
 
-    /// The map of teeth that are alike.
+    /// The map of identical teeth.
     pub fn map(&self) -> &ContactMap {
         &self.map
     }
 
-    /// The map of teeth that are alike, shared.
+    /// The map of identical teeth, shared.
     pub fn shared(&self) -> Arc<ContactMap> {
         Arc::clone(&self.map)
     }
 
-    /// Offsets of the teeth, if there are some.
+    /// Offsets of the teeth, if any.
     pub fn offsets(&self) -> Option<&PairOffsets> {
         self.offsets.as_deref()
     }
@@ -120,7 +119,7 @@ impl OffsetMap {
         }
     }
 
-    /// All that belongs to a phase (mesh cycles) and a tilt (rad).
+    /// The map at a phase (mesh cycles) and a tilt (rad).
     pub fn place(&self, phase: f64, tilt: f64) -> CutPlace {
         let mut place = CutPlace::default();
         self.move_place(&mut place, [phase, if self.map.tilts().is_some() { tilt } else { 0.0 }]);
@@ -143,7 +142,7 @@ impl OffsetMap {
         all.map(move |(own, offsets)| (own, offsets.of(cycle + own.pair)))
     }
 
-    /// Overlap of the flanks that touch first at a place of this map and an approach (mm), mm; negative where they are
+    /// Overlap of the flanks that touch first, at a position of this map and an approach (mm), mm; negative if they are
     /// apart.
     pub fn overlap(&self, place: &CutPlace, approach: f64) -> f64 {
         let own = approach - self.map.first_touch(place);
@@ -152,7 +151,7 @@ impl OffsetMap {
         touching.reduce(f64::max).map_or(own, |e| own + e)
     }
 
-    /// Elastic energy at a place of this map and an approach (mm), N mm.
+    /// Elastic energy at a position of this map and an approach (mm), N mm.
     pub fn energy(&self, place: &CutPlace, approach: f64) -> f64 {
         if self.offsets.is_none() {
             return self.map.energy(place, approach);
@@ -160,7 +159,7 @@ impl OffsetMap {
         self.contact(place, approach, Wanted { energy: true, phase_rate: false }).energy
     }
 
-    /// Force along the approach at a place of this map and an approach (mm), N.
+    /// Force along the approach at a position of this map and an approach (mm), N.
     pub fn force(&self, place: &CutPlace, approach: f64) -> f64 {
         if self.offsets.is_none() {
             return self.map.force(place, approach);
@@ -172,12 +171,12 @@ impl OffsetMap {
         self.pairs(place).filter_map(of).sum()
     }
 
-    /// The contact at a place of this map and an approach (mm).
+    /// The contact at a position of this map and an approach (mm).
     ///
     /// ```text
     /// dg/dx = (s' F + s F') / X',   g = s F
     /// ```
-    /// ': over the place nu on the load's axis; X(nu): approach.
+    /// The prime ' is the derivative by the position nu on the load axis; X(nu) is the approach.
     pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
         if self.offsets.is_none() {
             return self.map.contact(place, approach, wanted);
@@ -222,7 +221,7 @@ impl OffsetMap {
         all
     }
 
-    /// Approach (mm) under a force (N) at a place of this map.
+    /// Approach (mm) under a force (N) at a position of this map.
     pub fn approach(&self, place: &CutPlace, force: f64) -> f64 {
         let under = place.curve.value(self.map.load_axis().place(force))[0];
         let ends = self.pairs(place).fold([0.0f64; 2], |[a, b], (_, e)| [a.min(e), b.max(e)]);
@@ -246,11 +245,12 @@ impl OffsetMap {
         approach
     }
 
-    /// Error of the approach beside the contact of the teeth with their offsets, which `at` gives at a place in the mesh
-    /// cycles: under forces around `mean_force` (N), all over the period of the teeth. `None` without offsets.
+    /// Error of the approach, compared with the contact of the teeth with their offsets, which `at` gives at a position
+    /// in the mesh cycles. It is sampled under forces around `mean_force` (N), over the whole period of the teeth.
+    /// `None` without offsets.
     ///
     /// # Errors
-    /// [`MapError::Contact`].
+    /// [`MapError::Contact`] if the contact cannot be solved.
     pub fn error<C, E>(
         &self,
         mean_force: f64,

@@ -1,4 +1,4 @@
-//! Parts that pairs of teeth have of the force of a map. Theory (74a).
+//! Shares of tooth pairs in the force of a map. Theory (74a).
 
 use serde::{Deserialize, Serialize};
 
@@ -7,13 +7,13 @@ use crate::{
     spline::{Axis, Splines, periodic_coefficients},
 };
 
-/// Part of each pair of teeth in the force of a map.
+/// Share of each tooth pair in the force of a map.
 ///
 /// ```text
 /// s(u, tilt, F),   u = c - m: mesh cycles since pair m began its own;   sum over m of s(c - m) = 1
 /// ```
-/// Pairs are alike, so that one table over the way of a pair through the mesh serves all. It is periodic over so many
-/// cycles as a pair needs for its way, and the splines of all pairs add up to 1 as the parts do.
+/// Pairs are identical, so one table over a pair's passage through the mesh serves all. It is periodic over the number
+/// of cycles of this passage, and the splines of all pairs add up to 1 as the shares do.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairShares {
     /// Cycles of the way.

@@ -1,4 +1,4 @@
-//! Integrals over the load of pairs of teeth that press each at its own approach. Theory (74a).
+//! Integrals over the load of tooth pairs with different approaches. Theory (74a).
 
 use crate::{
     ContactMap, CutPlace,
@@ -31,8 +31,9 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 impl PairSums {
-    /// Sums over pairs that touch, each with its place over load; `by_phase`: slope of the approach over the phase, where
-    /// the phase's rate is wanted; `parted`: whether another pair of the place does not touch.
+    /// Sums over the pairs in contact, each with its position on the load axis. `by_phase` is the derivative of the
+    /// approach by the phase, if the phase rate is requested; `parted` tells whether another pair of this position is
+    /// not in contact.
     pub fn new(
         map: &ContactMap,
         place: &CutPlace,

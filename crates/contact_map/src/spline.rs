@@ -3,34 +3,35 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-/// An axis of a table with evenly spaced places, and the cubic B-splines on it.
+/// A table axis with evenly spaced grid points, and its cubic B-splines.
 ///
 /// ```text
 /// f(s) = sum over k = 0 .. 3 of c_(i + k) B_k(s - i),   s: place in units of the spacing, i = floor(s)
 /// ```
-/// f has two continuous derivatives and goes through the values at the places; between them it is off by O(h^4).
+/// f has two continuous derivatives and takes the given values at the grid points; between them the error is O(h^4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Axis {
-    /// One value, and no dependence.
+    /// One value, without dependence on the position.
     Single,
-    /// Places 0 .. n of a period, the n-th being the first again; n >= 4.
+    /// Grid points 0 .. n of a period, where point n equals the first; n >= 4.
     Periodic(usize),
-    /// Places 0 ..= n between two ends, n >= 3. The third derivative does not jump next to the ends ("not a knot").
+    /// Grid points 0 ..= n between two ends, n >= 3. The third derivative is continuous next to the ends ("not a
+    /// knot").
     Open(usize),
 }
 
-/// The splines that do not vanish at a place.
+/// The splines that are not zero at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Splines {
-    /// Number of the first one's coefficient.
+    /// Index of the coefficient of the first spline.
     pub first: usize,
     /// Number of weights: 4, or 1 on an axis with a single value.
     pub count: usize,
-    /// Their values, slopes and second derivatives, per unit of the spacing.
+    /// Values of the splines; all per unit of the spacing.
     pub values: [f64; 4],
-    /// Slopes.
+    /// Slopes of the splines.
     pub slopes: [f64; 4],
-    /// Second derivatives.
+    /// Second derivatives of the splines.
     pub curvatures: [f64; 4],
 }
 
@@ -41,7 +42,7 @@ impl Default for Splines {
 }
 
 impl Axis {
-    /// Number of places with a value of their own.
+    /// Number of grid points with a value of their own.
     pub fn places(self) -> usize {
         match self {
             Self::Single => 1,
@@ -50,7 +51,7 @@ impl Axis {
         }
     }
 
-    /// Number of coefficients; those of a period are written on over its end, so that no place has to wrap.
+    /// Number of coefficients. Those of a period are repeated beyond its end, so that no position has to wrap.
     pub fn coefficients(self) -> usize {
         match self {
             Self::Single => 1,
@@ -66,7 +67,7 @@ impl Axis {
         }
     }
 
-    /// Coefficients from values, coefficients x places; `None` for an axis with too few places.
+    /// Map from values to coefficients, coefficients x grid points; `None` for an axis with too few points.
     pub fn interpolation(self) -> Option<DMatrix<f64>> {
         let n = self.cells();
         match self {
@@ -102,8 +103,8 @@ impl Axis {
         }
     }
 
-    /// The splines at a place in units of the spacing. A period has no ends; beyond the ends of an open axis the
-    /// polynomials of its outermost intervals go on.
+    /// The splines at a position in units of the spacing. A period has no ends; beyond the ends of an open axis the
+    /// polynomials of its outermost intervals continue.
     pub fn splines_at(self, place: f64) -> Splines {
         match self {
             Self::Single => Splines { first: 0, count: 1, values: [1.0, 0.0, 0.0, 0.0], ..Splines::NONE },

@@ -1,8 +1,8 @@
-//! Places of a map that are asked for more than once.
+//! Cache of a map's positions that are needed more than once.
 
 use crate::{CutPlace, OffsetMap};
 
-/// The last two places at which a map was asked: a step begins at one and ends at the other.
+/// The last two positions at which a map was evaluated: a step begins at one and ends at the other.
 #[derive(Debug, Clone, Default)]
 pub struct SplineCache {
     both: [CutPlace; 2],
@@ -11,7 +11,7 @@ pub struct SplineCache {
 }
 
 impl SplineCache {
-    /// The place at a phase (mesh cycles) and a tilt (rad), for the flanks at an approach (mm).
+    /// The map at a phase (mesh cycles) and a tilt (rad), for flanks with an approach (mm).
     pub fn at(&mut self, map: &OffsetMap, phase: f64, [approach, tilt]: [f64; 2]) -> &CutPlace {
         let wanted = [phase, if map.map().tilts().is_some() { tilt } else { 0.0 }];
         if self.both[self.last].at != wanted {
@@ -25,7 +25,7 @@ impl SplineCache {
         &self.both[self.last]
     }
 
-    /// The place that was asked for last.
+    /// The last position.
     pub fn last(&self) -> &CutPlace {
         &self.both[self.last]
     }

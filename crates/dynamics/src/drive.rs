@@ -4,18 +4,18 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-/// Speed over time, prescribed; its angle in closed form.
+/// Prescribed speed over time, with its angle in closed form.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Speed {
-    /// Always the same, rad/s.
+    /// Constant speed, rad/s.
     Constant(f64),
-    /// Speed that goes from one value to another between two times by the smooth step 3 x^2 - 2 x^3, rad/s and s.
+    /// Speed that changes between two times by the smooth step 3 x^2 - 2 x^3, rad/s and s.
     Ramp {
-        /// Before.
+        /// Speed before the ramp, rad/s.
         from: f64,
-        /// After.
+        /// Speed after the ramp, rad/s.
         to: f64,
-        /// Begin, s.
+        /// Start of the ramp, s.
         start: f64,
         /// Duration of the ramp, s, > 0.
         duration: f64,
@@ -23,12 +23,12 @@ pub enum Speed {
 }
 
 impl Speed {
-    /// Whether it never changes.
+    /// Whether the speed is constant.
     pub fn is_constant(&self) -> bool {
         matches!(self, Self::Constant(_))
     }
 
-    /// Times between which it changes, s; `None` of a constant one.
+    /// Start and end of its change, s; `None` if it is constant.
     pub fn change(&self) -> Option<[f64; 2]> {
         match *self {
             Self::Constant(_) => None,
@@ -36,7 +36,7 @@ impl Speed {
         }
     }
 
-    /// Speed, rad/s.
+    /// Speed at a time, rad/s.
     pub fn at(&self, t: f64) -> f64 {
         match *self {
             Self::Constant(omega) => omega,
@@ -47,7 +47,7 @@ impl Speed {
         }
     }
 
-    /// Acceleration, rad/s^2.
+    /// Acceleration at a time, rad/s^2.
     pub fn acceleration(&self, t: f64) -> f64 {
         match *self {
             Self::Constant(_) => 0.0,
@@ -58,7 +58,7 @@ impl Speed {
         }
     }
 
-    /// Angle turned since t = 0, rad: the integral of the speed, x^3 - x^4/2 of a step.
+    /// Angle rotated since t = 0, rad: the integral of the speed, x^3 - x^4/2 for a step.
     pub fn angle(&self, t: f64) -> f64 {
         match *self {
             Self::Constant(omega) => omega * t,
@@ -73,7 +73,7 @@ impl Speed {
         }
     }
 
-    /// Time (s, >= 0) at which `angle` (rad, >= 0) has been turned; `None` where the motion stops before that.
+    /// Time (s, >= 0) at which the rotation reaches `angle` (rad, >= 0); `None` if the motion stops before.
     pub fn time_at(&self, angle: f64) -> Option<f64> {
         let end = match *self {
             Self::Constant(omega) => return (omega > 0.0).then(|| angle / omega),
@@ -99,20 +99,20 @@ impl Speed {
 /// Torque over time, N mm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Torque {
-    /// Always the same.
+    /// Constant torque, N mm.
     Constant(f64),
     /// T_0 + T_1 cos(2 pi f t + phase).
     Harmonic {
-        /// T_0.
+        /// Mean torque T_0.
         mean: f64,
-        /// T_1.
+        /// Amplitude T_1.
         amplitude: f64,
-        /// f, Hz.
+        /// Frequency f, Hz.
         frequency_hz: f64,
         /// Phase, rad.
         phase: f64,
     },
-    /// Straight lines between the given times (s, ascending), held before and after.
+    /// Linear interpolation between the given times (s, ascending), constant before and after.
     Table {
         /// Times, s.
         times: Vec<f64>,
@@ -122,7 +122,7 @@ pub enum Torque {
 }
 
 impl Torque {
-    /// Mean over time, N mm; `None` of a table, which has none of its own.
+    /// Mean over time, N mm; `None` for a table.
     pub fn mean(&self) -> Option<f64> {
         match self {
             Self::Constant(mean) | Self::Harmonic { mean, .. } => Some(*mean),
@@ -130,7 +130,7 @@ impl Torque {
         }
     }
 
-    /// The torque times a factor.
+    /// The torque multiplied by a factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         match self {
@@ -144,7 +144,7 @@ impl Torque {
         }
     }
 
-    /// All numbers of it.
+    /// All parameters of the torque.
     pub fn numbers(&self) -> impl Iterator<Item = f64> {
         let (single, lists): (Vec<f64>, [&[f64]; 2]) = match self {
             Self::Constant(value) => (vec![*value], [&[]; 2]),
@@ -156,7 +156,7 @@ impl Torque {
         single.into_iter().chain(lists.concat())
     }
 
-    /// Torque, N mm.
+    /// Torque at a time, N mm.
     pub fn at(&self, t: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,

@@ -14,7 +14,7 @@ pub struct ElasticDisplacement {
 }
 
 impl ElasticDisplacement {
-    /// Of gears without modes.
+    /// Displacement of gears without modes.
     pub fn rigid(d: Displacement) -> Self {
         Self { d, q: DVector::zeros(0) }
     }

@@ -1,4 +1,5 @@
-//! Maps of the contact of flanks in motion, and what they are made about. Theory (72), (75), pitch errors: (74a).
+//! Maps of the contact of flanks in motion, and the states about which they are made. Theory (72), (75), pitch errors:
+//! (74a).
 
 use contact::FlankProjection;
 use contact_map::{
@@ -10,23 +11,25 @@ use ltca::StaticError;
 
 use crate::{COORDINATES, Displacement, MeshFlanks, elastic_displacement::ElasticDisplacement, mesh_side::MeshSide};
 
-/// What maps of the flanks of a mesh must hold, and how well.
+/// Range and accuracy required of the maps of a mesh's flanks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapRequest {
-    /// Displacements of the gears in the mesh's own axes at rest, one entry a position: the maps are made about their mean.
+    /// Displacements of the gears in static equilibrium, in the mesh's own axes, one entry per position. The maps are
+    /// made about their mean.
     pub stands: Vec<Displacement>,
-    /// The same with the load on the coast flanks, whose map is made about these; empty: that is made about the others too.
+    /// The same with the load on the coast flanks, for the map of these flanks; if empty, that map is made about
+    /// `stands` as well.
     pub coast_stands: Vec<Displacement>,
-    /// Whether the gears can tilt against each other: between held shafts a map needs no tilt.
+    /// Whether the gears can tilt relative to each other; between held shafts a map needs no tilt.
     pub tilts: bool,
-    /// Sum of the normal forces there, N.
+    /// Sum of the normal forces in these equilibria, N.
     pub mean_force: f64,
-    /// Largest force over that.
+    /// Largest force divided by the mean force.
     pub overload: f64,
-    /// Root mean square of the approach's error over the mean approach that is aimed at.
+    /// Target for the root mean square error of the approach, divided by the mean approach.
     pub tolerance: f64,
-    /// Largest root mean square of the approach's error over the mean approach of a map that is taken: of one that
-    /// would cost too much to refine.
+    /// Largest permitted root mean square error of the approach, divided by the mean approach. It applies to a map
+    /// whose refinement would cost too much.
     pub worst: f64,
 }
 
@@ -34,19 +37,19 @@ pub struct MapRequest {
 /// mostly occur to few places of the map.
 const TILTING_LOADS: f64 = 4.0;
 
-/// Why the flanks of a mesh have no maps.
+/// Reasons for which the flanks of a mesh have no maps.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MapFailure {
-    /// A map does not hold what the contact depends on.
+    /// The contact depends on a quantity that a map does not contain.
     #[error("maps of the contact do not depend on {what}")]
     Unmapped {
-        /// What, and why.
+        /// The quantity and the reason.
         what: &'static str,
     },
-    /// None is good enough.
+    /// No map is accurate enough.
     #[error("no map of the contact: {0}")]
     Map(Box<MapError<StaticError>>),
-    /// The contact itself.
+    /// Error of the contact itself.
     #[error(transparent)]
     Contact(#[from] StaticError),
 }
@@ -84,11 +87,11 @@ impl MapRequest {
 }
 
 impl MeshFlanks {
-    /// Maps of the driving flanks and, where these may touch, of the coast flanks, about where the gears stand; of teeth at
-    /// their nominal places. `watch` hears how far each is.
+    /// Maps of the driving flanks and, if these may touch, of the coast flanks, near the positions of the gears, for
+    /// teeth in nominal positions. `watch` receives the progress of each map.
     ///
     /// # Errors
-    /// [`MapFailure`]: normal modes, flanks by tooth, no load; where no map is good enough.
+    /// [`MapFailure`]: normal modes, flanks that differ by tooth, no load, or no map that is accurate enough.
     pub fn maps(
         &self,
         pair: &GearPair,
@@ -116,7 +119,7 @@ impl MeshFlanks {
         self.sides().enumerate().map(one).collect()
     }
 
-    /// What displacements do to the flanks of each side, and what pitch errors offset their pairs of teeth by.
+    /// Effect of displacements on the flanks of each side, and the offsets of tooth pairs by pitch errors.
     pub fn mapped_sides(&self, pair: &GearPair) -> impl Iterator<Item = (FlankProjection, PairOffsets)> {
         let of = |side: &MeshSide| {
             (FlankProjection::new(pair, side.flank_side()), PairOffsets::new(side.pitch_approaches(pair)))
@@ -124,11 +127,11 @@ impl MeshFlanks {
         self.sides().map(of)
     }
 
-    /// Error of the approach of the driving flanks by pitch errors as offsets of a map, beside the contact of the teeth with
-    /// these errors; `None` without any.
+    /// Error of the driving flanks' approach if pitch errors are treated as offsets of a map, compared with the contact
+    /// of the teeth with these errors; `None` without pitch errors.
     ///
     /// # Errors
-    /// [`MapFailure::Map`] where the contact cannot be solved.
+    /// [`MapFailure::Map`] if the contact cannot be solved.
     pub fn offset_error(
         &self,
         pair: &GearPair,
@@ -140,10 +143,10 @@ impl MeshFlanks {
         map.error(request.mean_force, at).map_err(|e| MapFailure::Map(Box::new(e)))
     }
 
-    /// Refuses flanks that no map holds.
+    /// Returns an error for flanks that no map can describe.
     ///
     /// # Errors
-    /// [`MapFailure::Unmapped`].
+    /// [`MapFailure::Unmapped`] for such flanks.
     pub fn check_mapped(&self, pair: &GearPair, request: &MapRequest) -> Result<(), MapFailure> {
         let what = if self.driving.contact().modes().is_some() {
             "normal modes of the gears: the contact then depends on their amplitudes"

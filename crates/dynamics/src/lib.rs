@@ -1,5 +1,5 @@
-//! What moves a pair? Rigid bodies on bearings, drives and loads, and the contact of elastic teeth between them, as a
-//! machine of them (`gearbox::motion`) asks for it.
+//! Parts of a gear pair in motion: rigid bodies on bearings, drives and loads, and the contact of elastic teeth, in the
+//! form that the mechanism (`gearbox::motion`) needs.
 
 mod body;
 mod drive;

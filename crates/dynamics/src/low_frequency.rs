@@ -1,19 +1,20 @@
-//! How far quasi-static elasticity may be trusted.
+//! Frequency range in which quasi-static elasticity is valid.
 
-/// Highest ratio of an exciting frequency to a gear's lowest elastic one at which elasticity counts as quasi-static.
+/// Largest ratio of an exciting frequency to a gear's lowest elastic frequency at which elasticity counts as
+/// quasi-static.
 ///
 /// ```text
 /// c(f) = sum_j phi_j phi_j' / (omega_j^2 - omega^2) <= c(0) / (1 - r^2),   r = f / f_1
 /// ```
-/// f_1 the gear's lowest frequency with its bore held and its flanks free. At r = 1/4 a gear gives way by 7 % more than
-/// at rest where all of its compliance is in its lowest mode, and less where it is not. What that does to the dynamic
-/// transmission error of two discs on thin shafts (`crates/gearbox/tests/gearbox_laws/modes_in_motion.rs`): 1 % at 0.1, 4 to 5 % at
-/// 0.2, 7 to 8 % at the limit, 10 to 14 % at 0.3, all of it at 1. With the flanks held the lowest frequency of such
-/// gears is up to twice as high: as a bound it would warn too late.
+/// f_1 is the gear's lowest frequency with its bore held and its flanks free. At r = 1/4 a gear deflects by 7 % more
+/// than in static equilibrium if all of its compliance is in its lowest mode, and by less otherwise. The effect on the
+/// dynamic transmission error of two discs on thin shafts (`crates/gearbox/tests/gearbox_laws/modes_in_motion.rs`) is 1
+/// % at 0.1, 4 to 5 % at 0.2, 7 to 8 % at the limit, 10 to 14 % at 0.3, and 100 % at 1. With the flanks held the lowest
+/// frequency of such gears is up to twice as high, so as a limit it would warn too late.
 pub const LOW_FREQUENCY_LIMIT: f64 = 0.25;
 
-/// Share of the peak to peak that may change before a user should hear of it: what one harmonic at
-/// [`LOW_FREQUENCY_LIMIT`] changes, 1/(1 - r^2) - 1 = 1/15.
+/// Share of the peak to peak whose change is reported to the user: the change of one harmonic at
+/// [`LOW_FREQUENCY_LIMIT`], 1/(1 - r^2) - 1 = 1/15.
 pub const CHANGE_LIMIT: f64 =
     LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT / (1.0 - LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT);
 
@@ -25,29 +26,30 @@ const PLACES: usize = 256;
 /// The mesh resonance: frequency of the two gears on the mean stiffness of their teeth, Hz, and its damping ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshResonance {
-    /// Frequency, Hz.
+    /// Frequency of the resonance, Hz.
     pub hz: f64,
-    /// Damping ratio.
+    /// Damping ratio of the resonance.
     pub damping: f64,
 }
 
-/// What elastic inertia that is left out may change in the transmission error. Theory (63).
+/// Possible change of the transmission error by neglected elastic inertia. Theory (63).
 ///
 /// ```text
 /// x_k = A_k / |1 - rho_k^2 + 2 i zeta rho_k|,   rho_k = k f_m / f_0,   r_k = k f_m / f_1
 /// change(f_m) = sum_k x_k min(|1 / (1 - r_k^2) - 1|, 1),   share = max change / max sum_k x_k
 /// ```
-/// A_k harmonics of the quasi-static transmission error, f_0 mesh resonance, f_1 lowest elastic frequency: teeth and
-/// bodies give way by 1/(1 - r^2) times as much as at rest if all of their compliance is in the lowest mode, and a
-/// harmonic changes by that share of itself (measured beside it in `crates/gearbox/tests/gearbox_laws/modes_in_motion.rs`), wholly at
-/// the most. Both largest values are over the mesh frequencies that the motion passes.
+/// A_k are harmonics of the quasi-static transmission error, f_0 is the mesh resonance, f_1 the lowest elastic
+/// frequency. If all compliance is in the lowest mode, teeth and bodies deflect by 1/(1 - r^2) times the static
+/// deflection, and a harmonic changes by the corresponding share (compared with measurements in
+/// `crates/gearbox/tests/gearbox_laws/modes_in_motion.rs`), at most completely. Both maxima are over the mesh
+/// frequencies that the motion passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticChange {
-    /// Mesh frequency at which most may change, Hz.
+    /// Mesh frequency with the largest possible change, Hz.
     pub mesh_hz: f64,
-    /// Mesh harmonic that has the largest part in it, 1 the mesh frequency itself.
+    /// Mesh harmonic that contributes most, 1 for the mesh frequency itself.
     pub harmonic: usize,
-    /// Lowest elastic frequency of pinion and wheel, bore held and flanks free, Hz
+    /// Lowest elastic frequency of pinion and wheel, with bore held and flanks free, Hz
     /// ([`reduction::LowestFrequencies::flanks_free_hz`]), or the highest mode that is kept.
     pub elastic_hz: [f64; 2],
     /// Share by which the peak to peak may change.
@@ -55,8 +57,8 @@ pub struct ElasticChange {
 }
 
 impl ElasticChange {
-    /// `amplitudes`: of mesh harmonics 1, 2, ... of the quasi-static transmission error; `mesh_hz`: least and highest
-    /// mesh frequency of the motion.
+    /// `amplitudes` are those of mesh harmonics 1, 2, ... of the quasi-static transmission error; `mesh_hz` has the
+    /// lowest and highest mesh frequency of the motion.
     pub fn of(amplitudes: &[f64], mesh_hz: [f64; 2], elastic_hz: [f64; 2], resonance: MeshResonance) -> Self {
         let lowest = elastic_hz[0].min(elastic_hz[1]);
         let [from, to] = mesh_hz;
@@ -90,17 +92,17 @@ impl ElasticChange {
         self.harmonic as f64 * self.mesh_hz
     }
 
-    /// Harmonic times mesh frequency over the lowest elastic frequency, of pinion and wheel.
+    /// Harmonic times mesh frequency, divided by the lowest elastic frequency of pinion and wheel.
     pub fn ratios(&self) -> [f64; 2] {
         self.elastic_hz.map(|f| self.harmonic_hz() / f)
     }
 
-    /// The larger one.
+    /// The larger of the two ratios.
     pub fn largest_ratio(&self) -> f64 {
         self.ratios().into_iter().fold(0.0, f64::max)
     }
 
-    /// Whether a user should hear of it.
+    /// Whether the change must be reported to the user.
     pub fn matters(&self) -> bool {
         self.share > CHANGE_LIMIT
     }

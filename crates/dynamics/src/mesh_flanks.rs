@@ -1,4 +1,5 @@
-//! Contact of both sides of the teeth in motion: what a mesh does to two gears, whatever carries them. Theory (46), (47).
+//! Contact of both sides of the teeth in motion: the forces of a mesh on two gears, whatever supports them. Theory
+//! (46), (47).
 
 use std::sync::Arc;
 
@@ -15,10 +16,10 @@ use crate::{
     mesh_side::{MeshSide, ModalForce, SideContacts, SideForce},
 };
 
-/// Contact of elastic teeth in motion: the flanks that drive and, where these may touch, the coast flanks.
+/// Contact of elastic teeth in motion: the driving flanks and, if these may touch, the coast flanks.
 ///
-/// Displacements are the twelve of both gears from their nominal motion, mm and rad; the place in that motion is told in
-/// mesh cycles. The last contact is kept, because several callers ask for it at the end of a step.
+/// Displacements are the twelve of both gears from their nominal motion, mm and rad. The position in that motion is
+/// given in mesh cycles. The last contact is kept, because several callers need it at the end of a step.
 #[derive(Debug)]
 pub struct MeshFlanks {
     pub(crate) driving: MeshSide,
@@ -26,45 +27,45 @@ pub struct MeshFlanks {
     last: Option<SideContacts>,
 }
 
-/// Forces of both sides at displacements.
+/// Forces of both sides at given displacements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankForces {
-    /// -dV/dd: normal forces, N and N mm.
+    /// Normal forces -dV/dd, N and N mm.
     pub normal: Displacement,
-    /// Friction, which has no potential.
+    /// Friction forces, which have no potential.
     pub friction: Displacement,
-    /// -d(normal + friction)/dd: N/mm, N, N mm; of any value where no tangent was asked for.
+    /// Stiffness -d(normal + friction)/dd: N/mm, N, N mm; undefined if no tangent was requested.
     pub stiffness: SMatrix<f64, 12, 12>,
     /// Sum of the normal forces on the driving and on the coast flanks, N.
     pub sums: [f64; 2],
-    /// Forces on the modes of both gears, with the tangents of all; none of gears that are rigid beside their teeth.
+    /// Forces on the modes of both gears, with all tangents; `None` for gears that are rigid apart from their teeth.
     pub modal: Option<ModalForce>,
 }
 
-/// What the dampers of both sides do.
+/// Forces of the dampers of both sides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankDamping {
     /// Forces on the displacements, N and N mm.
     pub force: Displacement,
-    /// Power taken, N mm/s.
+    /// Dissipated power, N mm/s.
     pub dissipated: f64,
     /// -d force/d rates: N s/mm, N s, N mm s.
     pub rate_slope: SMatrix<f64, 12, 12>,
-    /// -d force/d displacements, of dampers that are held at the force of their slice.
+    /// -d force/d displacements, for dampers that are limited by the force of their slice.
     pub slope: SMatrix<f64, 12, 12>,
 }
 
 /// Windows of both sides, and their tooth changes so far.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FlankStates {
-    /// Driving flanks.
+    /// State of the driving flanks.
     pub driving: SideState,
-    /// Coast flanks.
+    /// State of the coast flanks.
     pub coast: Option<SideState>,
 }
 
 impl FlankStates {
-    /// Running number of the window that is farthest from the start of counting.
+    /// Largest magnitude of the running numbers of the windows.
     pub fn farthest_tooth(&self) -> u64 {
         let of = |side: &SideState| side.first.unsigned_abs();
         of(&self.driving).max(self.coast.as_ref().map_or(0, of))
@@ -72,12 +73,12 @@ impl FlankStates {
 }
 
 impl MeshFlanks {
-    /// Flanks at the beginning of a motion, `cycles` mesh cycles after the start of counting. `driving`: gears reduced for
-    /// the flanks that drive under `options`; `coast`: for those of [`StaticOptions::driven_backwards`], where these may
-    /// touch.
+    /// Flanks at the beginning of a motion, `cycles` mesh cycles after the origin of counting. `driving` are gears
+    /// reduced for the driving flanks of `options`; `coast` are gears reduced for those of
+    /// [`StaticOptions::driven_backwards`], if these may touch.
     ///
     /// # Errors
-    /// [`StaticError`] for points, or gears that are not reduced for these flanks.
+    /// [`StaticError`] for contact of points, or for gears that are not reduced for these flanks.
     pub fn new(
         pair: &GearPair,
         driving: Arc<[ElasticGear; 2]>,
@@ -91,7 +92,7 @@ impl MeshFlanks {
         Ok(Self { driving, coast, last: None })
     }
 
-    /// The same flanks at their beginning, with the same gears and tables.
+    /// The same flanks in their initial state, with the same gears and tables.
     ///
     /// # Errors
     /// [`StaticError`].
@@ -101,7 +102,7 @@ impl MeshFlanks {
         Ok(Self { driving, coast, last: None })
     }
 
-    /// Takes the windows that are due at a place, with no tooth change counted.
+    /// Enters the windows that are due at a position, without counting tooth changes.
     ///
     /// # Errors
     /// [`StaticError`].
@@ -110,7 +111,7 @@ impl MeshFlanks {
         self.sides_mut().try_for_each(|side| side.begin_at(pair, cycles))
     }
 
-    /// Takes normal modes of both gears for coordinates of their own.
+    /// Makes normal modes of both gears separate coordinates.
     ///
     /// # Errors
     /// [`contact::ContactError::Reduction`] for modes of another gear.
@@ -133,7 +134,7 @@ impl MeshFlanks {
         self.driving.friction_coefficient()
     }
 
-    /// Turns of pinion and wheel in a mesh cycle, rad about +z.
+    /// Rotations of pinion and wheel in a mesh cycle, rad about +z.
     pub fn turns_per_cycle(&self, pair: &GearPair) -> [f64; 2] {
         self.driving.turns_per_cycle(pair)
     }
@@ -193,7 +194,7 @@ impl MeshFlanks {
         Ok(all)
     }
 
-    /// Largest normal displacement of a flank by one unit of each mode, t^(-1/2); empty without modes.
+    /// Largest normal displacement of a flank per unit of each mode, t^(-1/2); empty without modes.
     pub fn mode_sizes(&self) -> &[f64] {
         self.driving.contact().modal().map_or(&[], |modal| modal.sizes())
     }
@@ -208,8 +209,8 @@ impl MeshFlanks {
         [self.driving.sum_of_forces(), self.coast.as_ref().map_or(0.0, MeshSide::sum_of_forces)]
     }
 
-    /// What the dampers of the flanks that carry force do, with the gears moving at `rate`; `per_length`: N s/mm a mm of
-    /// contact line. After [`MeshFlanks::forces`] with tangents at the same place where slopes are asked for.
+    /// Forces of the dampers of the loaded flanks, with the gears moving at `rate`; `per_length` is in N s/mm per mm of
+    /// contact line. If slopes are requested, call it after [`MeshFlanks::forces`] with tangents at the same position.
     pub fn damping(
         &mut self,
         pair: &GearPair,
@@ -243,7 +244,8 @@ impl MeshFlanks {
         of(&self.driving) + self.coast.as_ref().map_or(0.0, of)
     }
 
-    /// Strain energy of both sides at a place with the gears displaced, N mm, to twelve digits; the last contact is lost.
+    /// Strain energy of both sides at a position with the gears displaced, N mm, accurate to twelve digits; the last
+    /// contact is discarded.
     ///
     /// # Errors
     /// [`StaticError::Contact`].
@@ -253,8 +255,9 @@ impl MeshFlanks {
         self.sides_mut().try_fold(0.0, |sum, side| Ok(sum + side.energy(pair, cycles, at).map_err(fail)?))
     }
 
-    /// Deepest overlap of the undeformed flanks at the place of the last contact, mm, negative where they are apart: of
-    /// the driving flanks, and of the coast flanks (minus infinity without any). With modes the last contact is lost.
+    /// Deepest overlap of the undeformed flanks at the position of the last contact, mm, negative if they are apart: of
+    /// the driving flanks, and of the coast flanks (minus infinity if there are none). With modes the last contact is
+    /// discarded.
     pub fn overlaps(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> [f64; 2] {
         let driving = self.driving.overlap(pair, cycles, at);
         let coast = self.coast.as_mut().map_or(f64::NEG_INFINITY, |side| side.overlap(pair, cycles, at));
@@ -289,17 +292,17 @@ impl MeshFlanks {
         }
     }
 
-    /// Refuses gears that have turned past a whole window since it moved last.
+    /// Returns an error if the gears have rotated past a whole window since it last moved.
     ///
     /// # Errors
-    /// [`ale::AleError::Leapt`].
+    /// [`ale::AleError::Leapt`] if the gears have rotated too far.
     pub fn check_pace(&self, cycles: f64) -> Result<(), StaticError> {
         self.sides().try_for_each(|side| side.check_pace(cycles))
     }
 
-    /// At the end of a step with the gears moving at `rate`: moves the windows as far as is due and outgoing teeth carry
-    /// nothing, and refuses a state in which teeth are where none can be, or a pair beside a window ought to carry load;
-    /// adds the step to the extremes. Whether a window has moved.
+    /// Called at the end of a step with the gears moving at `rate`. It moves the windows that are due, as long as
+    /// outgoing teeth are unloaded, and adds the step to the extremes. It returns an error if teeth are at impossible
+    /// positions, or if a pair next to a window should carry load. Returns whether a window has moved.
     ///
     /// # Errors
     /// [`StaticError::PassedThrough`], [`ale::AleError::Starved`].
@@ -339,8 +342,8 @@ impl MeshFlanks {
         Ok(moved)
     }
 
-    /// Both sides where they were evaluated last, with the gears moving at `rate`; `roots`: the fillets of the driving side,
-    /// where their stress is asked for.
+    /// Both sides at the last evaluation, with the gears moving at `rate`; `roots` are the fillets of the driving side,
+    /// if their stress is requested.
     ///
     /// # Errors
     /// [`StaticError`] of the root stress.
@@ -363,7 +366,7 @@ impl MeshFlanks {
         Ok(both)
     }
 
-    /// Loads on the flanks of each side that presses where they were evaluated last; the driving side always.
+    /// Loads on the flanks of each side in contact at the last evaluation; the driving side is always included.
     pub fn loads(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Vec<SideLoads<'_>> {
         let pressed = self.sides().enumerate().filter(|(coasts, side)| *coasts == 0 || side.presses());
         pressed.map(|(_, side)| side.loads(pair, cycles, d)).collect()
@@ -415,8 +418,8 @@ impl MeshFlanks {
         }
     }
 
-    /// Forgets the last contact, and what the search remembers: what comes then depends on the place and the windows
-    /// alone, bit by bit.
+    /// Discards the last contact and the memory of the search. Later results then depend only on position and windows,
+    /// bit by bit.
     pub fn forget(&mut self) {
         self.sides_mut().for_each(MeshSide::forget);
         self.last = None;

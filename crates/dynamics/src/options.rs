@@ -5,25 +5,25 @@ use serde::{Deserialize, Serialize};
 use crate::{Bearing, RigidBody, Speed, Torque, body::COORDINATES};
 use ltca::StaticOptions;
 
-/// Drive of the input, in the running sense: what is prescribed of it.
+/// Drive of the input in the running sense: the quantity that is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Drive<T = Torque> {
-    /// Prescribed speed of the input, rad/s, constant or from one to another: its inertia counts as infinite.
+    /// Prescribed speed of the input, rad/s, constant or with a ramp: its inertia counts as infinite.
     Speed(Speed),
-    /// Prescribed speed of the turn of the whole train, rad/s at the input: deviations have no momentum along it, and the
-    /// torque of the input balances loads and losses at every instant. Theory (45a), (92a), (45b).
+    /// Prescribed speed of the rotation of the whole train, rad/s at the input. Deviations have no momentum along this
+    /// rotation, and the torque of the input balances loads and losses at every instant. Theory (45a), (92a), (45b).
     Balanced(Speed),
-    /// A torque on the input, which starts at a speed.
+    /// Prescribed torque on the input, with an initial speed.
     Torque {
-        /// Speed at the start, rad/s.
+        /// Initial speed, rad/s.
         start: f64,
-        /// Torque, N mm.
+        /// Torque on the input, N mm.
         torque: T,
     },
 }
 
 impl<T> Drive<T> {
-    /// Speed of the input by time where it is given, else that of the start.
+    /// Speed of the input over time if it is given, otherwise the initial speed.
     #[inline]
     pub fn nominal(&self) -> Speed {
         match *self {
@@ -32,7 +32,7 @@ impl<T> Drive<T> {
         }
     }
 
-    /// The drive at another speed, constant or of the start, rad/s.
+    /// The drive with another speed, constant or initial, rad/s.
     #[must_use]
     pub fn at_speed(self, speed: f64) -> Self {
         match self {
@@ -43,41 +43,40 @@ impl<T> Drive<T> {
     }
 }
 
-/// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach or part, at most
-/// the slice's own force: never a pull.
+/// Damping of the mesh: a force on each slice in contact, proportional to the rate at which its flanks approach or
+/// separate. It is limited by the slice's own force, so it never pulls.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum MeshDamping {
-    /// Damping ratio zeta of the two gears turning against each other: c = 2 zeta sqrt(k_m m_e), shared over the mean
-    /// length of contact lines.
+    /// Damping ratio zeta of the two gears vibrating against each other: c = 2 zeta sqrt(k_m m_e), distributed over the
+    /// mean length of contact lines.
     Ratio(f64),
-    /// N s/mm per mm of contact line.
+    /// Damping coefficient, N s/mm per mm of contact line.
     PerLength(f64),
 }
 
-/// Bodies, bearings, drives of a pair in motion; contact as in the static options.
+/// Bodies, bearings and drives of a pair in motion; contact as in the static options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionOptions {
-    /// Driver, sense, contact, friction, window. Its torque is the reference for start and scales.
+    /// Driver, sense, contact, friction, window. Its torque is the reference for the initial state and for scales.
     pub statics: StaticOptions,
-    /// Pinion and wheel.
+    /// Bodies of pinion and wheel.
     pub bodies: [RigidBody; 2],
     /// Bearings of both gears.
     pub bearings: [Bearing; 2],
-    /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's
-    /// always.
+    /// Free rigid coordinates of each gear. The driver's rotation is free if a torque drives, the driven gear's always.
     pub free: [[bool; COORDINATES]; 2],
-    /// Driver.
+    /// Drive of the driving gear.
     pub drive: Drive,
-    /// Load torque on the driven gear against its turn, N mm.
+    /// Load torque on the driven gear against its rotation, N mm.
     pub load: Torque,
-    /// Mesh damping.
+    /// Damping of the mesh.
     pub damping: MeshDamping,
-    /// Mesh cycles at t = 0: where the run begins.
+    /// Mesh cycles at t = 0, where the run begins.
     pub start_cycles: f64,
 }
 
 impl MotionOptions {
-    /// Mean of the load over time, N mm: of a table, which has none of its own, the torque that scales are taken from.
+    /// Mean of the load over time, N mm; for a table, the torque from which scales are taken.
     pub fn mean_load(&self) -> f64 {
         self.load.mean().unwrap_or(self.statics.torque)
     }

@@ -1,4 +1,4 @@
-//! Loads on the flanks at an instant, from which fields of displacement are made.
+//! Loads on the flanks at an instant, from which displacement fields are computed.
 
 use contact::{ContactSet, Pose, nodal::ContactRow};
 use reduction::ElasticGear;
@@ -12,14 +12,14 @@ pub struct SideLoads<'a> {
     pub set: &'a ContactSet,
     /// Frames of the matrices.
     pub poses: [Pose; 2],
-    /// Slices, those that press with the nodes that they rest on.
+    /// Slices; those in contact have their nodes.
     pub rows: Vec<ContactRow>,
-    /// Normal force of each, N, without damping.
+    /// Normal force of each slice, N, without damping.
     pub forces: &'a [f64],
 }
 
 impl SideLoads<'_> {
-    /// Displacements of both gears' boundary coordinates under the loads, mm, in the matrices' frames.
+    /// Displacements of both gears' boundary coordinates under the loads, mm, in the frames of the matrices.
     pub fn displacements(&self) -> Option<[Vec<f64>; 2]> {
         self.set.displacements_under(&self.rows, self.forces)
     }

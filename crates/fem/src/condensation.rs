@@ -1,27 +1,28 @@
-//! Coordinates that follow statically are left out.
+//! Static condensation: eliminates coordinates that follow the kept ones statically.
 
 use nalgebra::{Cholesky, DMatrix};
 
 use crate::FemError;
 
-/// Stiffness, mass, damping and the like in the kept coordinates.
+/// Map from the kept coordinates to all coordinates; it reduces stiffness, mass, damping and similar matrices.
 ///
 /// ```text
 /// q = T q_k,   T = [I; -K_cc^-1 K_ck],   A^ = T' A T
 /// ```
-/// Exact for static loads on the kept coordinates; the others' inertia goes along with their static shapes (Guyan).
+/// Exact for static loads on the kept coordinates. The inertia of the eliminated coordinates moves with their static
+/// shapes (Guyan).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Condensation {
-    /// T, in the order of all coordinates.
+    /// T; its rows are in the order of all coordinates.
     pub map: DMatrix<f64>,
 }
 
 impl Condensation {
-    /// From the stiffness of all coordinates, symmetric, and the numbers of those kept.
+    /// Makes the map from the symmetric stiffness of all coordinates and the indices of the kept ones.
     ///
     /// # Errors
-    /// [`FemError::Shape`], [`FemError::BadDof`], [`FemError::NotFinite`]; [`FemError::NotPositiveDefinite`] where
-    /// what is left out can move freely.
+    /// [`FemError::Shape`], [`FemError::BadDof`], [`FemError::NotFinite`]; [`FemError::NotPositiveDefinite`] if the
+    /// eliminated coordinates can move freely.
     pub fn new(stiffness: &DMatrix<f64>, kept: &[usize]) -> Result<Self, FemError> {
         check(stiffness, kept)?;
         let n = stiffness.nrows();
@@ -63,7 +64,7 @@ impl Condensation {
         Ok(Self { map })
     }
 
-    /// T' A T.
+    /// The reduced matrix T' A T.
     pub fn of(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
         self.map.transpose() * a * &self.map
     }

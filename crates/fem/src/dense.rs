@@ -1,5 +1,5 @@
-//! Dense kernels: column blocks in parallel, each block sequential, so that the bits are the same for any number of
-//! threads.
+//! Dense kernels. Column blocks are computed in parallel, each block sequentially, so the bits are the same for any
+//! number of threads.
 
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
@@ -20,10 +20,11 @@ use crate::FemError;
 /// Columns of a task: wide enough for fast products, narrow enough to spread evenly over the threads.
 const BLOCK: usize = 96;
 
-/// L of A = L L', n x n, zeros above the diagonal; of A (symmetric positive definite) the lower triangle is read.
+/// L of A = L L', n x n, with zeros above the diagonal. A is symmetric positive definite; only its lower triangle is
+/// read.
 ///
 /// # Errors
-/// [`FemError::NotPositiveDefinite`] with the row of the pivot that is not positive, [`FemError::OutOfMemory`].
+/// [`FemError::NotPositiveDefinite`] with the row of the pivot that is not positive; [`FemError::OutOfMemory`].
 pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
     let n = a.nrows();
     let mut l = a.to_owned();
@@ -44,11 +45,11 @@ pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
     }
 }
 
-/// Eigenvalues (ascending) and orthonormal eigenvectors (columns, in that order) of a symmetric matrix, of which the
+/// Eigenvalues (ascending) and orthonormal eigenvectors (columns, in the same order) of a symmetric matrix. Only its
 /// lower triangle is read.
 ///
 /// # Errors
-/// [`FemError::NotFinite`] for a matrix that is not made of numbers, [`FemError::OutOfMemory`].
+/// [`FemError::NotFinite`] if an entry is not a finite number, [`FemError::OutOfMemory`].
 pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FemError> {
     let n = a.nrows();
     if n == 0 {
@@ -69,12 +70,12 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FemEr
     Ok((values.column_vector().iter().copied().collect(), vectors))
 }
 
-/// Eigenvalues and eigenvectors (columns, in that order, each of length 1) of a real square matrix. Complex ones come in
-/// conjugate pairs, one after the other.
+/// Eigenvalues and eigenvectors (columns in the same order, each of length 1) of a real square matrix. Complex
+/// eigenvalues come in consecutive conjugate pairs.
 ///
 /// # Errors
-/// [`FemError::Shape`], [`FemError::NotFinite`], [`FemError::OutOfMemory`], [`FemError::NoEigenvalues`] where the
-/// iteration does not end.
+/// [`FemError::Shape`], [`FemError::NotFinite`], [`FemError::OutOfMemory`], [`FemError::NoEigenvalues`] if the
+/// iteration does not converge.
 pub fn general_eigen(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), FemError> {
     let n = a.nrows();
     if a.ncols() != n {
@@ -120,17 +121,17 @@ pub fn general_eigen(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), FemErro
     Ok((values, vectors))
 }
 
-/// L^-1 B in place for a lower triangle L, n x n; B n x k.
+/// Computes L^-1 B in place for a lower triangle L, n x n; B is n x k.
 pub fn solve_lower(l: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     rhs.par_col_chunks_mut(BLOCK).for_each(|rhs| solve_lower_triangular_in_place(l, rhs, Par::Seq));
 }
 
-/// L^-T B in place for a lower triangle L, n x n; B n x k.
+/// Computes L^-T B in place for a lower triangle L, n x n; B is n x k.
 pub fn solve_lower_transposed(l: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     rhs.par_col_chunks_mut(BLOCK).for_each(|rhs| solve_upper_triangular_in_place(l.transpose(), rhs, Par::Seq));
 }
 
-/// A B, m x k.
+/// Product A B, m x k.
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut result = Mat::zeros(a.nrows(), b.ncols());
     result.as_mut().par_col_chunks_mut(BLOCK).zip(b.par_col_chunks(BLOCK)).for_each(|(result, b)| {
@@ -139,7 +140,7 @@ pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     result
 }
 
-/// Z' Z for Z m x n, both triangles.
+/// Z' Z for Z of size m x n, both triangles.
 pub fn gram(z: MatRef<'_, f64>) -> Mat<f64> {
     by_lower_blocks(z.ncols(), |start, width, below| {
         let (rows, own) = (z.subcols(start, z.ncols() - start), z.subcols(start, width));
@@ -159,7 +160,7 @@ pub fn times_transpose(l: MatRef<'_, f64>) -> Mat<f64> {
 
 /// C = (L L')^-1 for a lower triangle L, both triangles of C.
 ///
-/// Rows from j on of columns from j on need only the part of L below and right of (j, j).
+/// Rows and columns from j on need only the part of L below and to the right of (j, j).
 pub fn inverse_of_product(l: MatRef<'_, f64>) -> Mat<f64> {
     by_lower_blocks(l.nrows(), |start, width, mut below| {
         let l = l.get(start.., start..);

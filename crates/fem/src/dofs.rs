@@ -1,10 +1,10 @@
-//! Which degrees of freedom are free, and where they stand in the matrices.
+//! Which degrees of freedom are free, and their positions in the matrices.
 
 use crate::FemError;
 
-/// Numbering of the free degrees of freedom: three (x, y, z) a node, of all nodes that are not fixed.
+/// Numbering of the free degrees of freedom: three (x, y, z) for each node that is not fixed.
 ///
-/// Free nodes keep their order; the p-th of them owns rows 3p, 3p+1, 3p+2.
+/// Free nodes keep their order; the p-th free node owns rows 3p, 3p+1, 3p+2.
 ///
 /// # Example
 /// ```
@@ -22,9 +22,9 @@ pub struct DofMap {
 const FIXED: u32 = u32::MAX;
 
 impl DofMap {
-    /// Numbering for `node_count` nodes of which those in `fixed` do not move.
+    /// Numbering for `node_count` nodes; the nodes in `fixed` do not move.
     ///
-    /// Entries of `fixed` may repeat; those past the last node have no effect.
+    /// Entries of `fixed` may repeat; entries beyond the last node have no effect.
     pub fn new(node_count: usize, fixed: &[u32]) -> Self {
         let mut position = vec![0; node_count];
         for &node in fixed {
@@ -57,12 +57,12 @@ impl DofMap {
         &self.free_nodes
     }
 
-    /// Place of a node among the free ones; `None` when it is fixed or unknown.
+    /// Position of a node among the free ones; `None` if it is fixed or unknown.
     pub fn position(&self, node: u32) -> Option<usize> {
         self.position.get(node as usize).filter(|&&p| p != FIXED).map(|&p| p as usize)
     }
 
-    /// Matrix row of a node's motion along `axis` (0, 1, 2); `None` when fixed or unknown.
+    /// Matrix row of a node's displacement along `axis` (0, 1, 2); `None` if it is fixed or unknown.
     pub fn dof(&self, node: u32, axis: usize) -> Option<usize> {
         if axis < 3 { self.position(node).map(|p| 3 * p + axis) } else { None }
     }
@@ -72,10 +72,10 @@ impl DofMap {
         self.free_nodes.get(dof / 3).map(|&node| (node, dof % 3))
     }
 
-    /// Displacement of every node (mm) from that of the free degrees of freedom; fixed nodes rest.
+    /// Displacement of every node (mm) from those of the free degrees of freedom; fixed nodes have zero displacement.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `free` does not have `free_count()` entries.
+    /// [`FemError::Shape`] if `free` does not have `free_count()` entries.
     pub fn to_nodes(&self, free: &[f64]) -> Result<Vec<[f64; 3]>, FemError> {
         if free.len() != self.free_count() {
             return Err(FemError::Shape { what: "free displacements", expected: self.free_count(), found: free.len() });

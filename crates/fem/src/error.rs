@@ -1,4 +1,4 @@
-//! What can go wrong between a mesh and its factor.
+//! Errors from mesh to factor.
 
 /// Failure of a finite-element computation.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -10,7 +10,7 @@ pub enum FemError {
         /// The value given, MPa.
         young_mpa: f64,
     },
-    /// Poisson's ratio outside of what displacement elements can do.
+    /// Poisson's ratio is outside the range of displacement elements.
     #[error("Poisson's ratio must lie in (-1, 0.4999), not {poisson}")]
     PoissonOutOfRange {
         /// The value given.
@@ -22,7 +22,7 @@ pub enum FemError {
         /// The value given, t/mm^3.
         density_t_per_mm3: f64,
     },
-    /// A round section that is none.
+    /// Diameters that do not make a round section.
     #[error("a section needs 0 <= inner < outer diameter, not {inner_mm} and {outer_mm} mm")]
     Section {
         /// Outer diameter, mm.
@@ -30,33 +30,33 @@ pub enum FemError {
         /// Inner diameter, mm.
         inner_mm: f64,
     },
-    /// A length along a shaft that is not positive, or a place that is not on it.
+    /// A length along a shaft that is not positive, or a position that is not on it.
     #[error("{length_mm} mm is no length of a shaft, or no place on it")]
     Length {
         /// The value given, mm.
         length_mm: f64,
     },
-    /// The Jacobian of an element is not positive at a point of integration.
+    /// The Jacobian of an element is not positive at an integration point.
     #[error("{kind} element {tag} is inverted or flat: det J = {det_j_mm3:.3e} mm^3")]
     Inverted {
-        /// Kind of the element, for instance `hex8`.
+        /// Kind of the element, such as `hex8`.
         kind: &'static str,
-        /// The file's tag of the element.
+        /// Tag of the element in the file.
         tag: u64,
-        /// Determinant of the Jacobian there, mm^3.
+        /// Determinant of the Jacobian at this point, mm^3.
         det_j_mm3: f64,
     },
     /// An element names a node that the mesh does not have.
     #[error("element {tag} uses node {node}, but the mesh has {node_count} nodes")]
     NodeOutOfRange {
-        /// The file's tag of the element.
+        /// Tag of the element in the file.
         tag: u64,
-        /// The node it names.
+        /// The node that is named.
         node: u32,
         /// Number of nodes in the mesh.
         node_count: usize,
     },
-    /// Element connectivity and tags of a block do not fit each other.
+    /// Connectivity and tags of a block of elements have inconsistent lengths.
     #[error("a block of {kind} has {connectivity} node numbers and {tags} tags")]
     RaggedBlock {
         /// Kind of the block's elements.
@@ -66,20 +66,20 @@ pub enum FemError {
         /// Length of the tag list.
         tags: usize,
     },
-    /// Sizes that should agree do not.
+    /// Two sizes that must agree differ.
     #[error("{what}: expected {expected}, found {found}")]
     Shape {
-        /// What was measured.
+        /// Quantity whose size is wrong.
         what: &'static str,
         /// The size it should have.
         expected: usize,
         /// The size it has.
         found: usize,
     },
-    /// A list of degrees of freedom names one that is out of range or twice there.
+    /// An entry in a list of degrees of freedom is out of range or repeated.
     #[error("degree of freedom {dof} is out of range (0..{count}) or listed twice")]
     BadDof {
-        /// The offending entry.
+        /// The wrong entry.
         dof: usize,
         /// Number of degrees of freedom.
         count: usize,
@@ -92,14 +92,14 @@ pub enum FemError {
         /// Column of the entry.
         column: usize,
     },
-    /// A stiffness matrix is not positive definite: something can move freely.
+    /// A stiffness matrix is not positive definite: some part can move freely.
     #[error(
         "stiffness is not positive definite at degree of freedom {dof}: pivot {pivot_ratio:.1e} of the diagonal entry"
     )]
     NotPositiveDefinite {
         /// Degree of freedom (matrix row) where elimination broke down.
         dof: usize,
-        /// Pivot over diagonal entry there; not above zero, or as small as round-off.
+        /// Pivot over diagonal entry in this row; not above zero, or as small as round-off.
         pivot_ratio: f64,
     },
     /// A symmetric indefinite matrix has no inverse.
@@ -108,7 +108,7 @@ pub enum FemError {
         /// Degree of freedom (matrix row) where elimination broke down.
         dof: usize,
     },
-    /// The search for the eigenvalues of a matrix did not end.
+    /// The iteration for the eigenvalues of a matrix did not converge.
     #[error("no eigenvalues of a matrix of {size} rows were found")]
     NoEigenvalues {
         /// Rows of the matrix.
@@ -119,22 +119,22 @@ pub enum FemError {
     Ordering {
         /// Number of graph nodes.
         nodes: usize,
-        /// Status METIS returned.
+        /// Status returned by METIS.
         status: i32,
     },
     /// The matrix is too large for 32-bit graph indices.
     #[error("{entries} graph entries are too many for the ordering (limit 2147483647)")]
     TooLarge {
-        /// Number of entries asked for.
+        /// Number of entries requested.
         entries: usize,
     },
-    /// Nobody waits for the factor any more ([`crate::unless_unwanted`]).
+    /// The factor is no longer wanted by the caller ([`crate::unless_unwanted`]).
     #[error("nobody waits for this factor any more")]
     Unwanted,
     /// The factor does not fit into memory.
     #[error("out of memory: the factor needs {bytes} bytes")]
     OutOfMemory {
-        /// Bytes asked for.
+        /// Bytes requested.
         bytes: usize,
     },
 }
@@ -169,13 +169,13 @@ impl FemError {
     }
 }
 
-/// Whether the answer of a long computation is still wanted; threads share it.
+/// Callback that tells whether the result of a long computation is still wanted. Threads share it.
 pub type Wanted<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// Ends a computation whose answer nobody waits for any more.
+/// Returns an error, which ends the computation, if its result is no longer wanted.
 ///
 /// # Errors
-/// [`FemError::Unwanted`].
+/// [`FemError::Unwanted`] if the result is no longer wanted.
 pub fn unless_unwanted(wanted: Wanted<'_>) -> Result<(), FemError> {
     if wanted() { Ok(()) } else { Err(FemError::Unwanted) }
 }

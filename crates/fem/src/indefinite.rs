@@ -1,12 +1,12 @@
-//! Sparse L B L' factor of a symmetric indefinite matrix, as a system with constraints has it.
+//! Sparse L B L' factor of a symmetric indefinite matrix, such as that of a system with constraints.
 //!
 //! ```text
 //! [ K  G' ] [ u ]   [ f ]
 //! [ G  -C ] [ p ] = [ g ]
 //! ```
-//! Pivots are chosen inside each supernode (Bunch and Kaufman, Math. Comp. 31, 1977): 1 x 1 or 2 x 2. With the
-//! constraints and any coordinate without stiffness of its own put `last`, they share one dense
-//! supernode, where that choice is free.
+//! Pivots of size 1 x 1 or 2 x 2 are chosen inside each supernode (Bunch and Kaufman, Math. Comp. 31, 1977).
+//! Constraints and coordinates without stiffness of their own should be put `last`: they then share one dense
+//! supernode, in which the choice of pivots is free.
 
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
@@ -34,10 +34,10 @@ pub struct IndefiniteFactor {
 }
 
 impl IndefiniteFactor {
-    /// Orders (nested dissection, `last` at the end in the order given), analyses and factors `matrix`.
+    /// Orders `matrix` (nested dissection, `last` at the end in the given order), analyses and factors it.
     ///
-    /// Nothing is kept from one matrix to the next: this is what a general code pays at each step of
-    /// Newton's method when the contact set changes.
+    /// Nothing is reused from one matrix to the next. This is the cost of a general code at each step of Newton's
+    /// method when the contact set changes.
     ///
     /// # Errors
     /// [`FemError::Singular`] for a pivot that is zero or not finite, [`FemError::BadDof`],
@@ -76,7 +76,7 @@ impl IndefiniteFactor {
         self.pivots.len()
     }
 
-    /// Entries of the factor, explicit zeros inside supernodes included.
+    /// Number of entries of the factor, including explicit zeros inside supernodes.
     pub fn nonzeros(&self) -> usize {
         self.values.len()
     }
@@ -84,7 +84,7 @@ impl IndefiniteFactor {
     /// Solves A x = b in place for one or many columns.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `rhs` does not have n rows.
+    /// [`FemError::Shape`] if `rhs` does not have n rows.
     pub fn solve(&self, rhs: MatMut<'_, f64>) -> Result<(), FemError> {
         if rhs.nrows() != self.n() {
             return Err(FemError::Shape { what: "rows", expected: self.n(), found: rhs.nrows() });

@@ -1,18 +1,19 @@
-//! What are K and M?
+//! Finite elements: stiffness K and mass M of a mesh, their factors, and stress.
 //!
-//! From a mesh to its matrices and their factors:
+//! The steps from a mesh to its matrices and factors:
 //!
-//! 1. [`Material`], [`ElementOptions`], [`DofMap`]: what is meant;
+//! 1. [`Material`], [`ElementOptions`], [`DofMap`]: the inputs;
 //! 2. [`assemble`]: sparse stiffness (N/mm) and consistent mass (t);
-//! 3. [`BoundaryLastFactor`]: one sparse Cholesky factor that holds the condensed stiffness, the compliance
-//!    and the constraint modes of chosen boundary coordinates;
-//!    [`PartedFactor`]: the same of a large body, of which a part at a time is held;
+//! 3. [`BoundaryLastFactor`]: one sparse Cholesky factor that gives the condensed stiffness, the compliance and the
+//!    constraint modes of chosen boundary coordinates; [`PartedFactor`]: the same for a large body, with only part of
+//!    the factor in memory at a time;
 //! 4. [`IndefiniteFactor`]: the same for a system with constraints;
-//! 5. [`nodal_stress`], [`StressOperator`], [`mass_properties`]: what follows from displacements and mesh.
+//! 5. [`nodal_stress`], [`StressOperator`], [`mass_properties`]: results from displacements and mesh.
 //!
-//! Beside it, for shafts: [`beam`] elements, the static [`Condensation`] and the [`natural_modes`] of small systems.
+//! For shafts the crate also has [`beam`] elements, the static [`Condensation`] and the [`natural_modes`] of small
+//! systems.
 //!
-//! Units: mm, N, MPa, t, s. Results are the same to the last bit for any number of threads.
+//! Units: mm, N, MPa, t, s. Results have the same bits for any number of threads.
 
 mod assembly;
 pub mod beam;

@@ -39,7 +39,7 @@ fn spread(d: [f64; 3], a: usize, b: usize) -> f64 {
 /// Elements a parallel task sums up.
 const CHUNK: usize = 1024;
 
-/// Mass properties of a mesh of one material. The same bits for any number of threads.
+/// Mass properties of a mesh of one material. The result has the same bits for any number of threads.
 ///
 /// # Errors
 /// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`].

@@ -11,12 +11,12 @@ pub struct Material {
 }
 
 impl Material {
-    /// Case-hardened steel as most gears have: 206 GPa, 0.3, 7850 kg/m^3.
+    /// Case-hardened steel, the material of most gears: 206 GPa, 0.3, 7850 kg/m^3.
     pub const STEEL: Self = Self { young: 2.06e5, poisson: 0.3, density: 7.85e-9 };
 
     /// A material from Young's modulus (MPa), Poisson's ratio and density (t/mm^3).
     ///
-    /// Displacement elements lock as nu nears 1/2, so nu >= 0.4999 is refused.
+    /// Displacement elements lock as nu approaches 1/2, so nu >= 0.4999 is an error.
     ///
     /// # Errors
     /// [`FemError::YoungNotPositive`], [`FemError::PoissonOutOfRange`], [`FemError::DensityNotPositive`].
@@ -62,7 +62,7 @@ impl Material {
         (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
     }
 
-    /// Stress of a strain, MPa.
+    /// Stress for a given strain, MPa.
     ///
     /// ```text
     /// sigma = lambda tr(epsilon) I + 2 mu epsilon

@@ -7,9 +7,9 @@ use crate::FemError;
 /// Undamped natural frequencies and shapes of a small system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
-    /// Angular frequencies, rad/s, ascending; rigid motions are 0.
+    /// Angular frequencies, rad/s, ascending; 0 for rigid-body modes.
     pub frequencies: Vec<f64>,
-    /// Shapes, one column a frequency, with shape' M shape = 1.
+    /// Mode shapes, one column per frequency, normalised so that shape' M shape = 1.
     pub shapes: DMatrix<f64>,
 }
 
@@ -24,11 +24,11 @@ pub struct Modes {
 /// | `k`  | n x n | N/mm (N, N mm for turns) | symmetric, positive semi-definite |
 /// | `m`  | n x n | t (t mm, t mm^2) | symmetric, positive definite |
 ///
-/// An eigenvalue below zero by round-off counts as 0. Dense: up to some hundred unknowns.
+/// An eigenvalue that is negative by round-off counts as 0. The solver is dense and suits up to some hundred unknowns.
 ///
 /// # Errors
-/// [`FemError::Shape`] when the sizes differ, [`FemError::NotFinite`], [`FemError::NotPositiveDefinite`] when some
-/// coordinate has no mass.
+/// [`FemError::Shape`] if the sizes differ, [`FemError::NotFinite`], [`FemError::NotPositiveDefinite`] if a coordinate
+/// has no mass.
 pub fn natural_modes(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Result<Modes, FemError> {
     let n = m.nrows();
     for (what, found) in [("columns of mass", m.ncols()), ("rows of stiffness", k.nrows()), ("its columns", k.ncols())]
@@ -60,7 +60,7 @@ pub fn natural_modes(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Result<Modes, FemErr
 }
 
 impl Modes {
-    /// Shape number `mode`.
+    /// Mode shape number `mode`.
     pub fn shape(&self, mode: usize) -> DVector<f64> {
         self.shapes.column(mode).into_owned()
     }

@@ -27,8 +27,8 @@ impl SymmetricMatrix {
 
     /// A matrix of order `n` from entries (row, column, value) of its lower triangle.
     ///
-    /// Entries of the same place are summed in the order given; an entry above the diagonal is taken as
-    /// its mirror image, so give each pair once.
+    /// Entries at the same position are summed in the given order. An entry above the diagonal counts as its mirror
+    /// image, so give each pair once.
     ///
     /// # Errors
     /// [`FemError::BadDof`] for an index out of range, [`FemError::NotFinite`].
@@ -86,17 +86,17 @@ impl SymmetricMatrix {
         (symbolic.col_ptr(), symbolic.row_idx(), self.lower.val())
     }
 
-    /// Every stored entry of the lower triangle as (row, column, value), column by column.
+    /// All stored entries of the lower triangle as (row, column, value), column by column.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let (starts, rows, values) = self.arrays();
         (0..self.n())
             .flat_map(move |column| (starts[column]..starts[column + 1]).map(move |k| (rows[k], column, values[k])))
     }
 
-    /// Adds to one entry of the diagonal.
+    /// Adds a value to one entry of the diagonal.
     ///
     /// # Errors
-    /// [`FemError::BadDof`] where the diagonal has no such entry.
+    /// [`FemError::BadDof`] if the diagonal has no such entry.
     pub fn add_to_diagonal(&mut self, dof: usize, value: f64) -> Result<(), FemError> {
         let count = self.n();
         let (starts, rows, _) = self.arrays();
@@ -110,7 +110,7 @@ impl SymmetricMatrix {
         }
     }
 
-    /// The diagonal.
+    /// Entries of the diagonal.
     pub fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = vec![0.0; self.n()];
         for (row, column, value) in self.entries() {
@@ -124,7 +124,7 @@ impl SymmetricMatrix {
     /// Product A x for one or many columns.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `x` does not have `n()` rows.
+    /// [`FemError::Shape`] if `x` does not have `n()` rows.
     pub fn multiply(&self, x: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         if x.nrows() != self.n() {
             return Err(FemError::Shape { what: "rows", expected: self.n(), found: x.nrows() });
@@ -141,7 +141,7 @@ impl SymmetricMatrix {
     /// Product A x for one vector.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `x` does not have `n()` entries.
+    /// [`FemError::Shape`] if `x` does not have `n()` entries.
     pub fn multiply_vector(&self, x: &[f64]) -> Result<Vec<f64>, FemError> {
         let product = self.multiply(MatRef::from_column_major_slice(x, x.len(), 1))?;
         Ok(product.col_as_slice(0).to_vec())
@@ -170,7 +170,7 @@ impl SymmetricMatrix {
         }
     }
 
-    /// The full matrix, both triangles; for small orders and tests.
+    /// The full matrix, both triangles; for small orders and for tests.
     pub fn to_dense(&self) -> Mat<f64> {
         let mut dense = Mat::zeros(self.n(), self.n());
         for (row, column, value) in self.entries() {

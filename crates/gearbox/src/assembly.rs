@@ -5,11 +5,11 @@ use nalgebra::{ComplexField, DMatrix, DVector, Matrix6};
 
 use crate::{Disc, ElasticBody, GearboxError, Structure, Supports, shafts_in_shafts::rigid};
 
-/// A structure cut into beam elements; six coordinates a node (displacements x, y, z in mm, turns about them in rad),
-/// shaft after shaft.
+/// A structure divided into beam elements. Each node has six coordinates (displacements x, y, z in mm, rotations about
+/// them in rad); nodes are in the order of the shafts.
 ///
-/// Coordinates of a node are those of its cross-section, but where a disc has a reach h: there they are those of the
-/// disc's middle, which moves with the section as a rigid body.
+/// Coordinates of a node are those of its cross-section. The exception is a disc with a reach h: there they are those
+/// of the disc's mid-plane, which moves with the section as a rigid body.
 ///
 /// ```text
 /// u_section = u - turn x (0, 0, h),   turn_section = turn        q_sections = T q
@@ -31,10 +31,10 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Checks the structure and cuts its shafts into elements, with nodes at all discs and bearings.
+    /// Checks the structure and divides its shafts into elements, with nodes at all discs and bearings.
     ///
     /// # Errors
-    /// [`GearboxError`] when some value has no meaning.
+    /// [`GearboxError`] if a value is out of range.
     pub fn new(structure: Structure) -> Result<Self, GearboxError> {
         structure.check()?;
         let mut lines = Vec::with_capacity(structure.shafts.len());
@@ -70,12 +70,13 @@ impl Assembly {
         Ok(Self { structure, lines, first, discs, bearings, outer, reaches, supports })
     }
 
-    /// Structure that the assembly was made from.
+    /// The structure from which the assembly was made.
     pub fn structure(&self) -> &Structure {
         &self.structure
     }
 
-    /// Number of coordinates: six a node, six an open seat of the [`Supports`] after them, and the elastic modes of gears.
+    /// Number of coordinates: six per node, then six per open seat of the [`Supports`], then the elastic modes of
+    /// gears.
     pub fn size(&self) -> usize {
         self.modes_at() + self.structure.bodies.iter().map(ElasticBody::count).sum::<usize>()
     }
@@ -116,7 +117,7 @@ impl Assembly {
         self.first[self.lines.len()]
     }
 
-    /// First of the six coordinates of a disc.
+    /// Index of the first of the six coordinates of a disc.
     pub fn disc(&self, disc: usize) -> Option<usize> {
         self.discs.get(disc).copied()
     }
@@ -131,7 +132,7 @@ impl Assembly {
         self.first.iter().copied().zip(&self.lines)
     }
 
-    /// T q: displacements of the cross-sections of all nodes.
+    /// Displacements T q of the cross-sections at all nodes.
     pub fn of_sections(&self, q: &DVector<f64>) -> DVector<f64> {
         let mut own = q.clone();
         for &(at, reach) in &self.reaches {
@@ -290,7 +291,7 @@ impl Assembly {
         self.bearings[bearing]
     }
 
-    /// Consistent mass of the shafts, and that of discs and machines: t, t mm, t mm^2.
+    /// Consistent mass of the shafts plus the mass of discs and machines: t, t mm, t mm^2.
     pub fn mass(&self) -> DMatrix<f64> {
         let mut m = self.of_shafts(|line| &line.mass);
         self.to_coordinates(&mut m);
@@ -320,11 +321,12 @@ impl Assembly {
         c
     }
 
-    /// Gyroscopic matrix of shafts and discs that spin at `speeds` (rad/s about +z, one a shaft), t mm^2/s:
+    /// Gyroscopic matrix of shafts and discs that spin at `speeds` (rad/s about +z, one per shaft), t mm^2/s;
     /// skew-symmetric.
     ///
     /// # Errors
-    /// [`GearboxError::Count`] for another number of speeds, [`GearboxError::OutOfRange`] where one is no number.
+    /// [`GearboxError::Count`] for another number of speeds, [`GearboxError::OutOfRange`] if a speed is not a finite
+    /// number.
     pub fn gyroscopic(&self, speeds: &[f64]) -> Result<DMatrix<f64>, GearboxError> {
         let wanted = self.lines.len();
         if speeds.len() != wanted {

@@ -1,4 +1,4 @@
-//! Equilibrium of every body: what is left over of all that acts on it. Theory (85).
+//! Equilibrium of every body: the residual of all forces on it. Theory (85).
 
 use nalgebra::{DVector, Vector3};
 

@@ -1,4 +1,4 @@
-//! Bearings: springs and dampers, or rolling elements whose force follows a law. Theory (79), (79c), (101).
+//! Bearings: springs and dampers, or rolling elements with a nonlinear law. Theory (79), (79c), (101).
 
 use std::sync::Arc;
 
@@ -6,48 +6,51 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::rolling_bearing::RollingBearing;
 
-/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, in another shaft or, without
-/// both, in the ground; or rolling elements.
+/// A bearing: springs and dampers, or rolling elements, between a shaft and its seat. The seat is in the housing, in
+/// another shaft or, without either, fixed in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
     /// Name for messages and tables.
     pub name: String,
-    /// Shaft, from 0.
+    /// Index of the shaft, from 0.
     pub shaft: usize,
     /// Position of its middle, mm from the shaft's z = 0.
     pub position: f64,
-    /// Shaft that its seat is part of, from 0: a carrier, a pin, a shaft within the shaft. `None`: the housing, or the ground.
+    /// Index of the shaft that contains its seat, from 0: a carrier, a pin, or a shaft within the shaft. `None`: the
+    /// housing, or fixed in space.
     pub outer: Option<usize>,
-    /// How far its seat stands from its nominal place, mm: an error of a bore, or of a pin.
+    /// Displacement of its seat from the nominal position, mm: an error of a bore or of a pin.
     pub offset: Vector3<f64>,
-    /// Stiffness for displacements x, y, z and turns about them, symmetric: N/mm, N, N mm. A 5x5 matrix has a zero row
-    /// and column for the turn about z.
+    /// Stiffness for displacements x, y, z and rotations about them, symmetric: N/mm, N, N mm. A 5x5 matrix has a zero
+    /// row and column for the rotation about z.
     pub stiffness: Matrix6<f64>,
-    /// Damping of the same, symmetric: N s/mm, N s, N mm s.
+    /// Damping for the same coordinates, symmetric: N s/mm, N s, N mm s.
     pub damping: Matrix6<f64>,
-    /// Rolling elements beside that stiffness, at rest and in motion; a vibration has springs in their place.
+    /// Rolling elements, in addition to the stiffness, in statics and motion; a vibration model replaces them by
+    /// springs.
     pub law: Option<Arc<RollingBearing>>,
-    /// Force (N) and moment (N mm) on the shaft with nothing displaced and no offset: of a spring about a loaded state.
+    /// Force (N) and moment (N mm) on the shaft without displacement and offset; not zero for a spring linearised about
+    /// a loaded state.
     pub preload: Vector6<f64>,
-    /// Energy there, N mm.
+    /// Energy without displacement and offset, N mm.
     pub stored: f64,
 }
 
 impl Bearing {
-    /// A bearing without coupling between the coordinates and without damping: stiffness of x, y, z (N/mm) and of the
-    /// turns about x, y, z (N mm).
+    /// A bearing without damping and without coupling between the coordinates: stiffness in x, y, z (N/mm) and about x,
+    /// y, z (N mm).
     pub fn diagonal(name: impl Into<String>, shaft: usize, position: f64, stiffness: [f64; 6]) -> Self {
         Self::linear(name, shaft, position, Matrix6::from_diagonal(&Vector6::from(stiffness)))
     }
 
-    /// A bearing of a stiffness, without damping.
+    /// A bearing with a given stiffness, without damping.
     pub fn linear(name: impl Into<String>, shaft: usize, position: f64, stiffness: Matrix6<f64>) -> Self {
         let (damping, preload, offset) = (Matrix6::zeros(), Vector6::zeros(), Vector3::zeros());
         let (outer, law, stored) = (None, None, 0.0);
         Self { name: name.into(), shaft, position, outer, offset, stiffness, damping, law, preload, stored }
     }
 
-    /// The bearing with its seat in another shaft.
+    /// The same bearing with its seat in another shaft.
     pub fn in_shaft(self, outer: usize) -> Self {
         Self { outer: Some(outer), ..self }
     }

@@ -1,4 +1,4 @@
-//! Rolling bearings among the seats: where they are, and what they do there. Theory (84), (101).
+//! Rolling bearings among the seats: their coordinates and their forces. Theory (84), (101).
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub(crate) struct CompliantBearing {
 }
 
 impl CompliantBearing {
-    /// All of them, but those of shafts that do not move.
+    /// All rolling bearings, except those of shafts that do not move.
     pub fn all(assembly: &Assembly, seats: &Seats, held: &[bool]) -> Vec<Self> {
         let own = assembly.structure().bearings.iter().enumerate();
         let moving = own.filter(|(_, b)| !held[b.shaft]);
@@ -38,7 +38,7 @@ impl CompliantBearing {
         moving.filter_map(one).collect()
     }
 
-    /// All of them, but those of shafts that do not move, among the coordinates of [`Supports`].
+    /// All rolling bearings, except those of shafts that do not move, in the coordinates of [`Supports`].
     pub fn at_supports(structure: &Structure, supports: &Supports, held: &[bool]) -> Vec<Self> {
         let own = structure.bearings.iter().enumerate().filter(|(_, b)| !held[b.shaft]);
         let one = |(bearing, b): (usize, &crate::Bearing)| {
@@ -52,14 +52,15 @@ impl CompliantBearing {
         own.filter_map(one).collect()
     }
 
-    /// Puts its seat in the housing, if it has one, at displacements in the order of the six axes.
+    /// Sets the displacements of its seat in the housing, if it has one; `seat` gives them in the order of the six
+    /// axes.
     pub fn set_housing(&self, y: &mut DVector<f64>, seat: impl Fn(usize) -> f64) {
         if let Some(at) = self.housing {
             (0..6).for_each(|k| y[at + k] = seat(k));
         }
     }
 
-    /// Displacement of the shaft against its seat, where that stands, at those of all seats.
+    /// Displacement of the shaft relative to the bearing's seat, from the displacements of all seats.
     pub fn relative(&self, y: &DVector<f64>) -> Vector6<f64> {
         self.moved(y) - self.offset
     }
@@ -69,7 +70,7 @@ impl CompliantBearing {
         self.ends.iter().map(|(at, own)| own * y.fixed_rows::<6>(*at)).sum()
     }
 
-    /// Adds its forces and -dV2/dy2 to those of the seats.
+    /// Adds its forces and its -dV2/dy2 to those of the seats.
     pub fn add(&self, y: &DVector<f64>, forces: &mut DVector<f64>, slopes: &mut DMatrix<f64>) -> RollingReply {
         let u = self.relative(y);
         let reply = self.law.evaluate(&Vector5::from_fn(|k, _| u[k]));
@@ -81,7 +82,7 @@ impl CompliantBearing {
         reply
     }
 
-    /// Adds a stiffness between both ends.
+    /// Adds a stiffness between its shaft and its seat.
     pub fn add_stiffness(&self, own: &Matrix6<f64>, all: &mut DMatrix<f64>) {
         for ((a, left), (b, right)) in self.ends.iter().flat_map(|x| self.ends.iter().map(move |y| (x, y))) {
             let mut block = all.fixed_view_mut::<6, 6>(*a, *b);
@@ -89,7 +90,7 @@ impl CompliantBearing {
         }
     }
 
-    /// What is told of it after a last step of the seats from where `reply` was.
+    /// Results of the bearing after a last step of the seats from the displacements at which `reply` was computed.
     pub fn state(&self, reply: &RollingReply, y: &DVector<f64>, step: &DVector<f64>) -> RollingState {
         RollingState::new(reply, self.relative(y), &self.moved(step))
     }

@@ -1,11 +1,11 @@
-//! Elastic modes of a gear beside the motion of its disc. Theory (58a), (62), (86a).
+//! Elastic modes of a gear, in addition to the motion of its disc. Theory (58a), (62), (86a).
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use reduction::GearModes;
 
 use crate::GearboxError;
 
-/// Normal modes of a gear, bore held, as coordinates p of a structure beside the six of its disc.
+/// Normal modes of a gear with its bore held, as coordinates p of a structure in addition to the six of its disc.
 ///
 /// ```text
 /// T = (M d. d. + 2 p. L d. + p. p.)/2,   V = p Omega^2 p/2,   gyroscopic forces at the angular velocity W about +z:
@@ -17,18 +17,18 @@ use crate::GearboxError;
 /// | L | m x 6 | t^(1/2), t^(1/2) mm | inertia that modes share with displacements and turns of the disc |
 ///
 /// Mass and inertia M of the whole gear are those of the disc. A gear that is not cyclic has the modes of its own frame
-/// as it stands at an angle; its modes have no gyroscopic forces, and do not turn past the mesh.
+/// at one angle; these modes have no gyroscopic forces and do not rotate past the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticBody {
-    /// Disc of the gear.
+    /// Index of the gear's disc.
     pub disc: usize,
-    /// omega^2 of every mode, (rad/s)^2.
+    /// Squared angular frequency omega^2 of every mode, (rad/s)^2.
     pub squares: DVector<f64>,
-    /// L, m x 6.
+    /// Coupling L, m x 6.
     pub coupling: DMatrix<f64>,
-    /// G, m x m, skew-symmetric.
+    /// Gyroscopic matrix G, m x m, skew-symmetric.
     pub gyroscopic: DMatrix<f64>,
-    /// A, 6 x m.
+    /// Gyroscopic coupling A with the rigid motion, 6 x m.
     pub rigid_gyroscopic: DMatrix<f64>,
 }
 
@@ -36,7 +36,7 @@ pub struct ElasticBody {
 const ROUND_OFF: f64 = 1e-9;
 
 impl ElasticBody {
-    /// The modes of the gear on a disc that stands at `angle` (rad, its tooth 0 from +x) with the input at its start.
+    /// The modes of the gear on a disc that is at `angle` (rad, its tooth 0 from +x) when the input is at its start.
     pub fn new(disc: usize, modes: &GearModes, angle: f64) -> Self {
         let m = modes.count();
         let squares = DVector::from_column_slice(modes.squares());

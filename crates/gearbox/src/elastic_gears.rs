@@ -6,12 +6,12 @@ use reduction::{ElasticGear, GearModes, GearReducer, ReductionError, ReductionWa
 
 use crate::{GearMesh, GearboxError, Structure};
 
-/// Modes of the gear on every disc of a structure, `None` where it is in no mesh: of the first mesh that it is in, out of
-/// the `reduced` gears of each.
+/// Modes of the gear on every disc of a structure; `None` for a disc without a mesh. A gear with several meshes gets
+/// its modes from the first of them. `reduced` has the reduced gears of each mesh.
 ///
 /// # Errors
-/// [`GearboxError::NoModes`] for meshes of a part of a gear, gears that are not reduced, and a gear that two scenes mesh
-/// unlike; [`GearboxError::GearModes`] as `modes`.
+/// [`GearboxError::NoModes`] for meshes of only part of a gear, for gears that are not reduced, and for a gear whose
+/// meshes differ between two scenes; [`GearboxError::GearModes`] as for `modes`.
 pub fn elastic_gears(
     structure: &Structure,
     meshes: &[GearMesh],

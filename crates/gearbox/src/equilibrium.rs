@@ -1,4 +1,4 @@
-//! Newton's method on the seats with the tangents of the meshes. Theory (84).
+//! Newton's method for the displacements of the seats with the tangents of the meshes. Theory (84).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -49,7 +49,7 @@ pub(crate) struct Norms {
 }
 
 impl Norms {
-    /// Norms of a symmetric positive definite stiffness.
+    /// Norms defined by a symmetric positive definite stiffness.
     pub fn new(stiffness: DMatrix<f64>) -> Result<Self, GearboxError> {
         let free = |dof| fem::FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 };
         if let Some(dof) = (0..stiffness.nrows()).find(|i| stiffness[(*i, *i)].is_nan() || stiffness[(*i, *i)] <= 0.0) {
@@ -67,7 +67,7 @@ impl Norms {
         Ok(Self { stiffness, factor, scale })
     }
 
-    /// K_0^-1 f.
+    /// Displacements K_0^-1 f.
     pub fn displacements(&self, forces: &DVector<f64>) -> DVector<f64> {
         self.factor.solve(&forces.component_mul(&self.scale)).component_mul(&self.scale)
     }

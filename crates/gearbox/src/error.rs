@@ -1,4 +1,4 @@
-//! Errors of a gearbox: refused inputs, and failures of the solution.
+//! Errors of a gearbox: invalid inputs, and failures of the solution.
 
 use dynamics::MapFailure;
 use fem::FemError;
@@ -13,22 +13,22 @@ use crate::{SeatError, rolling_bearing::RollingBearingError};
 /// Largest share of a vibration that harmonics may leave out, as files have it.
 const WIDEST_TAIL: f64 = 0.1;
 
-/// Why shafts, bearings and gears cannot be put together or solved.
+/// Shafts, bearings and gears cannot be assembled or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GearboxError {
-    /// No shaft at all.
+    /// There is no shaft.
     #[error("there is no shaft")]
     NoShafts,
-    /// The sections of a shaft make no sense.
+    /// The sections of a shaft are not valid.
     #[error("shaft {shaft}: {source}")]
     Shaft {
         /// Name of the shaft.
         shaft: String,
-        /// Error of the shaft.
+        /// Error of the shaft's beam model.
         source: FemError,
     },
-    /// A shaft that its bearings do not hold.
+    /// A shaft that is not held by its bearings.
     #[error("nothing holds shaft {shaft} {motion}")]
     Loose {
         /// Name of the shaft.
@@ -36,33 +36,33 @@ pub enum GearboxError {
         /// Direction in which it can move.
         motion: &'static str,
     },
-    /// A shaft whose bearings all take thrust one way, and that is pressed the other way.
+    /// All bearings of a shaft take thrust in the same direction, and the shaft is loaded in the opposite direction.
     #[error(
         "nothing takes {direction} on shaft {shaft}: {by} it there with {force_n:.0} N, and its bearings take thrust {taken} alone"
     )]
     OneWay {
         /// Name of the shaft.
         shaft: String,
-        /// `+z` or `-z`.
+        /// Direction of the load, `+z` or `-z`.
         direction: &'static str,
-        /// The other one.
+        /// Direction in which the bearings take thrust.
         taken: &'static str,
-        /// What presses it, with its verb.
+        /// What causes the load, with its verb.
         by: &'static str,
-        /// Force along the direction that nothing takes, N.
+        /// Load along the direction in which no bearing takes thrust, N.
         force_n: f64,
     },
-    /// A natural frequency that the digits of a computer do not hold beside the highest.
+    /// A natural frequency that is lost in the round-off of the highest one.
     #[error(
         "a natural frequency below {least_hz:.3} Hz cannot be told from round-off: the highest is {highest_hz:.2e} Hz"
     )]
     LostMode {
-        /// Frequency whose square is round-off of that of the highest, Hz.
+        /// Frequency whose square is the round-off of that of the highest, Hz.
         least_hz: f64,
-        /// The highest, Hz.
+        /// Highest frequency, Hz.
         highest_hz: f64,
     },
-    /// No rolling bearing can be made of what is stated.
+    /// No rolling bearing can be made from the given data.
     #[error("bearing {bearing}: {source}")]
     Bearing {
         /// Name of the bearing.
@@ -70,29 +70,29 @@ pub enum GearboxError {
         /// Error of the rolling bearing.
         source: RollingBearingError,
     },
-    /// Rolling elements where springs are needed.
+    /// Rolling elements in a model that needs springs.
     #[error("bearing {bearing} has rolling elements, and this analysis needs a linear stiffness")]
     NotLinear {
         /// Name of the bearing.
         bearing: String,
     },
-    /// A gear of a motion in time has elastic modes.
+    /// A gear has elastic modes in a motion in time.
     #[error("gear {gear} has elastic modes; in this motion gears are rigid except for their teeth")]
     ModesInMotion {
         /// Name of the gear.
         gear: String,
     },
-    /// Mass or inertia below what the elastic modes of a gear move.
+    /// Mass or inertia of a gear below that of the motion of its elastic modes.
     #[error(
         "gear {gear}: its elastic modes move more than its mass and inertia, which leave {share:.1e} of a direction to the rest"
     )]
     LessThanModes {
         /// Name of the gear.
         gear: String,
-        /// Smallest eigenvalue of what is left over, over the disc's own inertia.
+        /// Smallest eigenvalue of the remaining inertia, relative to the disc's own inertia.
         share: f64,
     },
-    /// A gear of which the mesh has a part alone, or that two meshes have unlike.
+    /// A gear of which the mesh has only a part, or that two meshes describe differently.
     #[error("gear {gear} cannot have elastic modes: {said}")]
     NoModes {
         /// Name of the gear.
@@ -100,13 +100,13 @@ pub enum GearboxError {
         /// What is wrong with its meshes.
         said: &'static str,
     },
-    /// Shooting with modes that a turn by teeth does not map into each other.
+    /// Shooting with modes that a rotation by several teeth does not map onto each other.
     #[error("shooting with elastic modes: the modes of gear {gear} are not alike for all teeth")]
     ModesWithoutPeriod {
         /// Name of the gear.
         gear: String,
     },
-    /// Elastic modes that were not found.
+    /// The elastic modes of a gear could not be computed.
     #[error("elastic modes of gear {gear}: {source}")]
     GearModes {
         /// Name of the gear.
@@ -114,35 +114,35 @@ pub enum GearboxError {
         /// Error of the reduction.
         source: ReductionError,
     },
-    /// A part names a shaft that is not there.
+    /// A part refers to a shaft that does not exist.
     #[error("{part} is on shaft {shaft}: shafts are numbered from 0, and there are {count}")]
     NoShaft {
         /// Name of the part.
         part: String,
-        /// The shaft it names.
+        /// Index of the shaft.
         shaft: usize,
         /// Number of shafts.
         count: usize,
     },
-    /// A part names a disc or gear that is not there.
+    /// A part refers to a disc or gear that does not exist.
     #[error("{part} is at disc {disc}, and there are {count} (they count from 0)")]
     NoDisc {
         /// Name of the part.
         part: String,
-        /// The disc it names.
+        /// Index of the disc.
         disc: usize,
         /// Number of discs.
         count: usize,
     },
-    /// Something else at the cross-section that a disc with a reach moves with.
+    /// Another part is at the cross-section with which a disc with a reach moves.
     #[error("{other} has the same place on the shaft as the seat of {disc}")]
     SharedSeat {
         /// Name of the disc with a reach.
         disc: String,
-        /// Name of what else is there.
+        /// Name of the other part.
         other: String,
     },
-    /// A part sits beside its shaft.
+    /// A part is outside its shaft.
     #[error("{part} at {position_mm} mm is not on its shaft of {length_mm} mm")]
     OffShaft {
         /// Name of the part.
@@ -152,29 +152,29 @@ pub enum GearboxError {
         /// Length of the shaft, mm.
         length_mm: f64,
     },
-    /// A state of another gearbox.
+    /// The state belongs to another gearbox.
     #[error("the state to go on from has {checkpoint} meshes, and the motion has {motion}")]
     OtherMeshes {
-        /// Meshes of the stored state.
+        /// Number of meshes in the stored state.
         checkpoint: usize,
-        /// Meshes of the motion.
+        /// Number of meshes in the motion.
         motion: usize,
     },
-    /// A motion that is to settle, and may not wait until it could repeat itself.
+    /// A motion that must settle, but whose period is longer than it may wait.
     #[error(
         "all meshes, and teeth that differ, come back together after {} cycles of the fastest one, and the motion may wait for {most}",
         period.map_or("more than 100000".into(), |p| p.to_string())
     )]
     NoCommonPeriod {
-        /// Cycles of the fastest mesh after which all meshes come back; `None`: too many to be looked for.
+        /// Cycles of the fastest mesh after which all meshes repeat; `None`: too many to search.
         period: Option<u64>,
-        /// Cycles that the motion may wait.
+        /// Largest number of cycles that the motion may wait.
         most: u64,
     },
-    /// A gearbox without branches of periodic motions over the speed.
+    /// A gearbox that has no branches of periodic motions over the speed.
     #[error("no branch of periodic motions over the speed is known of a gearbox {what}")]
     NoBranch {
-        /// What it has.
+        /// Feature that prevents it.
         what: &'static str,
     },
     /// A branch of motions whose period is too long.
@@ -183,17 +183,17 @@ pub enum GearboxError {
         period.map_or("more than 100000".into(), |p| p.to_string())
     )]
     LongPeriod {
-        /// Cycles of the fastest mesh after which all meshes come back; `None`: too many to be looked for.
+        /// Cycles of the fastest mesh after which all meshes repeat; `None`: too many to search.
         period: Option<u64>,
-        /// Cycles that a branch can have with the harmonics of a cycle that it is asked for.
+        /// Largest number of cycles that a branch can have with the requested harmonics per cycle.
         most: u64,
-        /// Harmonics of a cycle that a branch of this period can have; 0: none.
+        /// Harmonics per cycle that a branch of this period can have; 0: none.
         per_cycle: u64,
     },
-    /// The branch of periodic motions.
+    /// Error of the branch of periodic motions.
     #[error("the branch over the speed, 1/min: {0}")]
     Branch(Box<PeriodicError<GearboxError>>),
-    /// A value is not a finite number, or below 0 where it must not be.
+    /// A value is not a finite number, or is negative where it must not be.
     #[error("{part}: {quantity} = {value} must be a number of 0 or more")]
     OutOfRange {
         /// Name of the part.
@@ -203,70 +203,70 @@ pub enum GearboxError {
         /// Value of the quantity.
         value: f64,
     },
-    /// A stiffness or damping matrix that is not symmetric, or pushes where it should hold.
+    /// A stiffness or damping matrix that is not symmetric or not positive semi-definite.
     #[error("{part}: {matrix} is not symmetric and free of negative stiffness: {off:.1e} of its largest entry")]
     NotElastic {
         /// Name of the part.
         part: String,
-        /// Matrix: stiffness or damping.
+        /// Name of the matrix: stiffness or damping.
         matrix: &'static str,
-        /// Deviation over the largest entry.
+        /// Deviation relative to the largest entry.
         off: f64,
     },
-    /// A matrix between bearing seats of another size.
+    /// A matrix between bearing seats that has the wrong size.
     #[error("the housing has {found} coordinates, and {bearings} bearings have {wanted}")]
     HousingSize {
-        /// Rows or columns given.
+        /// Number of rows or columns given.
         found: usize,
         /// Number of bearings.
         bearings: usize,
-        /// Rows and columns that are needed.
+        /// Number of rows and columns needed.
         wanted: usize,
     },
-    /// A list that should have one entry for each part.
+    /// A list that does not have one entry per part.
     #[error("{found} {what} are given for {wanted}")]
     Count {
-        /// Entries that are counted.
+        /// What is counted.
         what: &'static str,
         /// Number found.
         found: usize,
         /// Number required.
         wanted: usize,
     },
-    /// More nodes than dense matrices hold.
+    /// The model has more nodes than dense matrices permit.
     #[error("{nodes:.0} nodes of shafts are too many: {most} at the most")]
     TooLarge {
-        /// Nodes that the elements would have.
+        /// Number of nodes that the elements would have.
         nodes: f64,
         /// Largest number allowed.
         most: usize,
     },
-    /// Linear algebra of the whole.
+    /// Error in the linear algebra of the whole model.
     #[error(transparent)]
     Matrix(#[from] FemError),
-    /// Axes of a mesh at another distance than its gears are made for.
+    /// The distance of two shafts is not the centre distance of their gears.
     #[error("mesh {mesh}: the axes are {distance_mm} mm apart, and the pair is made for {wanted_mm} mm")]
     Distance {
         /// Name of the mesh.
         mesh: String,
-        /// Distance of the shafts, mm.
+        /// Distance of the shaft axes, mm.
         distance_mm: f64,
         /// Centre distance of the pair, mm.
         wanted_mm: f64,
     },
-    /// Gears of a mesh at other heights than their pair is made for.
+    /// The axial offset of two gears is not that of their pair.
     #[error(
         "mesh {mesh}: the mid-face of gear 2 lies {offset_mm} mm above that of gear 1, and the pair is made for {pair_mm} mm"
     )]
     Beside {
         /// Name of the mesh.
         mesh: String,
-        /// Offset that the shafts give, mm along +z.
+        /// Offset given by the shafts, mm along +z.
         offset_mm: f64,
-        /// Offset of the pair's mid-faces, mm.
+        /// Offset of the mid-faces given by the pair, mm.
         pair_mm: f64,
     },
-    /// Two ways through the train turn a shaft unlike.
+    /// Two paths through the train give a shaft different ratios.
     #[error("the meshes give shaft {shaft} two speeds: {} and {} times that of the input", ratios[0], ratios[1])]
     Ratios {
         /// Name of the shaft.
@@ -274,13 +274,13 @@ pub enum GearboxError {
         /// The two ratios.
         ratios: [f64; 2],
     },
-    /// A shaft that no chain of meshes joins to the input.
+    /// A shaft that is not connected to the input by meshes.
     #[error("shaft {shaft} meshes with nothing that the input drives")]
     NotDriven {
         /// Name of the shaft.
         shaft: String,
     },
-    /// A torque that drives where it should load.
+    /// A torque that drives where it should be a load.
     #[error("the torque of {torque_nmm} N mm at {disc} drives its shaft instead of loading it")]
     Drives {
         /// Name of the disc.
@@ -288,28 +288,28 @@ pub enum GearboxError {
         /// The torque, N mm about +z.
         torque_nmm: f64,
     },
-    /// Newton's method does not settle.
+    /// Newton's method does not converge.
     #[error("no equilibrium after {iterations} steps: the last one was {step:.1e} of the displacements")]
     NoEquilibrium {
-        /// Steps taken.
+        /// Number of steps taken.
         iterations: usize,
-        /// Last step over the displacements, in the norm of the stiffness.
+        /// Last step relative to the displacements, in the norm of the stiffness.
         step: f64,
     },
-    /// A load below what round-off of places makes of the stiffness of teeth.
+    /// A load smaller than the force that round-off of positions causes through the stiffness of the teeth.
     #[error(
         "a load of {load_n:.3e} N on the flanks is too light: round-off of places alone makes {lost_n:.3e} N of the stiffness of the teeth"
     )]
     LostLoad {
         /// Force of the load on the flanks, N.
         load_n: f64,
-        /// Force that round-off makes, N.
+        /// Force caused by round-off, N.
         lost_n: f64,
     },
     /// Shooting with an input whose speed is free.
     #[error("an input that a torque drives has no period of its own: shooting needs a given speed")]
     FreeInput,
-    /// A sweep over the speed of an input that a torque of its own drives.
+    /// A sweep over the speed of an input that is driven by a given torque.
     #[error(
         "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load"
     )]
@@ -317,38 +317,38 @@ pub enum GearboxError {
     /// A torque over time on an input whose speed is given.
     #[error("a torque over time on an input whose speed is given: the torque there is a result")]
     GivenSpeed,
-    /// A bearing between shafts, or a shaft that does not turn.
+    /// Error of a bearing between shafts, or of a shaft that does not rotate.
     #[error(transparent)]
     Seat(#[from] SeatError),
-    /// A bearing that holds a shaft which has to turn.
+    /// A bearing that prevents the rotation of a shaft.
     #[error("{bearing} has stiffness or damping for the rotation about its axis, so its shaft could not rotate")]
     HeldTurn {
         /// Name of the bearing.
         bearing: String,
     },
-    /// A motion could not go on.
+    /// A motion cannot continue.
     #[error("{0}")]
     Motion(Box<MotionError<GearboxError>>),
-    /// A map of the contact.
+    /// Error of a map of the contact.
     #[error(transparent)]
     Map(Box<contact_map::MapError<StaticError>>),
-    /// A mesh that no map holds.
+    /// A mesh that cannot be described by a map.
     #[error("this model of the mesh does not hold {what}")]
     Unmapped {
-        /// What.
+        /// Reason why not.
         what: &'static str,
     },
-    /// Flanks that a mesh does not have would touch.
+    /// Flanks that the mesh model does not have would touch.
     #[error(
         "the driving flanks are {gap_mm:.4} mm apart, and the backlash is {backlash_mm:.4} mm: the others would touch"
     )]
     BeyondBacklash {
         /// Gap along the normal, mm.
         gap_mm: f64,
-        /// Backlash along it, mm.
+        /// Backlash along the normal, mm.
         backlash_mm: f64,
     },
-    /// The contact of a mesh.
+    /// Error in the contact of a mesh.
     #[error("mesh {mesh}: {source}")]
     AtMesh {
         /// Name of the mesh.
@@ -356,10 +356,10 @@ pub enum GearboxError {
         /// Error of the mesh.
         source: Box<GearboxError>,
     },
-    /// The exact contact of a pair of gears.
+    /// Error of the exact contact of a pair of gears.
     #[error(transparent)]
     Contact(#[from] StaticError),
-    /// The line of action of a mesh.
+    /// Error in the line of action of a mesh.
     #[error("mesh {mesh}: {source}")]
     Mesh {
         /// Name of the mesh.
@@ -370,7 +370,7 @@ pub enum GearboxError {
 }
 
 impl GearboxError {
-    /// What went wrong at a time (s) of a motion.
+    /// Adds the time (s) of a motion to an error.
     pub fn at(time: f64) -> impl Fn(Self) -> Self + Copy {
         move |source| match source {
             Self::Motion(_) => source,
@@ -378,7 +378,7 @@ impl GearboxError {
         }
     }
 
-    /// The error of the contact, where it is what went wrong.
+    /// The error of the contact, if that is the cause.
     pub fn contact_error(&self) -> Option<&StaticError> {
         match self {
             Self::Contact(source) => Some(source),
@@ -391,7 +391,7 @@ impl GearboxError {
         }
     }
 
-    /// Whether the input has a meaning and no result came out.
+    /// Whether the input is valid but no result was found.
     pub fn is_without_result(&self) -> bool {
         match self {
             Self::NoEquilibrium { .. }
@@ -419,7 +419,7 @@ impl GearboxError {
         }
     }
 
-    /// The mesh whose window has too few teeth: a wider one may do.
+    /// Name of the mesh whose window has too few teeth, so that a wider one may succeed.
     pub fn starved_mesh(&self) -> Option<&str> {
         match self {
             Self::AtMesh { mesh, source } => {
@@ -434,7 +434,7 @@ impl GearboxError {
         }
     }
 
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         let text = match self {
             Self::NoShafts => "give one shaft at least",

@@ -1,4 +1,4 @@
-//! An evenly loaded mesh as one spring along the line of action: what the search begins with, and what it holds.
+//! An evenly loaded mesh as one spring along the line of action, with which the search for equilibrium begins.
 
 use geometry::GearPair;
 use lumped::shaft18::MeshGeometry;

@@ -20,7 +20,7 @@ use crate::{
     modal_contact::ModalContact,
 };
 
-/// Slices of two reduced gears, station by station, as `ltca` solves them for a pair alone.
+/// Slice contact of two reduced gears, station by station, as `ltca` solves it for a single pair.
 #[derive(Debug)]
 pub struct ExactMesh {
     pair: GearPair,
@@ -42,11 +42,11 @@ pub struct ExactMesh {
 const REACH: f64 = 1.25;
 
 impl ExactMesh {
-    /// Gears that were reduced at the first window of `options` (`ltca::StaticModel::first_teeth`). Driver and sense of
-    /// the options are those of [`crate::Train::meshing`]; the torque is not used.
+    /// Takes gears that were reduced at the first window of `options` (`ltca::StaticModel::first_teeth`). Driver and
+    /// sense of the options are those of [`crate::Train::meshing`]; the torque is not used.
     ///
     /// # Errors
-    /// [`GearboxError::Contact`]: points, or gears that are not reduced.
+    /// [`GearboxError::Contact`] for contact of points, or for gears that are not reduced.
     pub fn new(
         pair: GearPair,
         gears: impl Into<Arc<[ElasticGear; 2]>>,
@@ -74,7 +74,8 @@ impl ExactMesh {
         })
     }
 
-    /// The mesh with elastic modes of gear 1 and gear 2 kept for [`MeshElement::modal`]; at rest it is what it was.
+    /// The mesh with elastic modes of gear 1 and gear 2 kept for [`MeshElement::modal`]; its static behaviour does not
+    /// change.
     ///
     /// # Errors
     /// [`GearboxError::Contact`] for modes of other gears.
@@ -84,12 +85,12 @@ impl ExactMesh {
         Ok(self)
     }
 
-    /// The pair.
+    /// The gear pair.
     pub fn pair(&self) -> &GearPair {
         &self.pair
     }
 
-    /// The options.
+    /// Options of the contact.
     pub fn options(&self) -> &StaticOptions {
         &self.options
     }

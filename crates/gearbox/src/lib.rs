@@ -1,19 +1,21 @@
-//! How do shafts, bearings and gears stand and swing together?
+//! Gearboxes: statics, vibration and motion of shafts, bearings and gears together.
 //!
-//! The files in the order of the model:
+//! The files, in the order of the model:
 //!
-//! 1. [`Structure`] and its parts: what the user says;
-//! 2. [`Supports`]: bearings in series with the housing; [`rolling_bearing`]: those whose stiffness follows the load;
+//! 1. [`Structure`] and its parts: the input;
+//! 2. [`Supports`]: bearings in series with the housing; [`rolling_bearing`]: bearings whose stiffness depends on the
+//!    load;
 //! 3. [`Assembly`]: matrices of all nodes;
 //! 4. [`Rotors`], [`WhirlModes`], [`ModalEnergy`]: natural frequencies and whirl modes over speed;
-//! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
-//! 6. [`MeshElement`]: what a mesh is asked for; the exact contact ([`ExactMesh`]) or a spring ([`motion::SpringMesh`]);
-//! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load;
-//! 8. [`Vibration`]: how it swings about that, driven by its meshes, gears with their elastic modes ([`ElasticBody`]) or rigid;
-//! 9. [`motion`]: how all of it moves in time.
+//! 5. [`Train`]: sense and speed of all gears, and the phase of every mesh;
+//! 6. [`MeshElement`]: the interface of a mesh; the exact contact ([`ExactMesh`]) or a spring ([`motion::SpringMesh`]);
+//! 7. [`StaticGearbox`], [`GearboxPosition`]: the static equilibrium under load;
+//! 8. [`Vibration`]: the vibration about this equilibrium, excited by the meshes, with elastic modes of the gears
+//!    ([`ElasticBody`]) or rigid gears;
+//! 9. [`motion`]: the motion in time.
 //!
-//! Axes of shafts are along +z; units mm, N, MPa, t, s, rad; common axes. Results are the same bits for any number of
-//! threads.
+//! Axes of shafts are along +z. Units are mm, N, MPa, t, s, rad; vectors are in common axes. Results have the same bits
+//! for any number of threads.
 
 mod assembly;
 mod balance;

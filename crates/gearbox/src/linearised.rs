@@ -1,4 +1,4 @@
-//! A gearbox about its state at rest: springs in place of rolling elements. Theory (101).
+//! A gearbox linearised about its static equilibrium: springs instead of rolling elements. Theory (101).
 
 use crate::{
     GearboxError, GearboxPosition, Structure,
@@ -6,11 +6,11 @@ use crate::{
 };
 
 impl Structure {
-    /// The structure with springs in place of rolling elements: about the mean over some positions at rest, each with
-    /// the mean of its tangents. Models of vibration are made of it; those of motion begin with it.
+    /// The structure with springs instead of rolling elements, linearised about the mean of several static positions
+    /// with the mean of the tangents. Vibration models are made from it; motion models start with it.
     ///
     /// # Errors
-    /// [`GearboxError::Count`] where there are no positions, or those of another gearbox.
+    /// [`GearboxError::Count`] if there are no positions, or if they belong to another gearbox.
     pub fn about(&self, positions: &[GearboxPosition]) -> Result<Self, GearboxError> {
         let mut linear = self.clone();
         for (i, bearing) in linear.bearings.iter_mut().enumerate() {

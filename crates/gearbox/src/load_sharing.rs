@@ -1,36 +1,36 @@
-//! How planets share the load of a mesh that each of them has, and the play that they have for it. Theory (85a), (85b).
+//! How planets share the load of their meshes, and the play that they have. Theory (85a), (85b).
 
 use nalgebra::Vector3;
 
 use crate::{GearMesh, GearboxPosition, Structure, mesh_numbers::mean};
 
-/// A planet's share of the load of all planets, over some positions.
+/// A planet's share of the load of all planets, over several positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanetShare {
-    /// Mean.
+    /// Mean share.
     pub mean: f64,
-    /// The smallest one.
+    /// Smallest share.
     pub least: f64,
-    /// The largest one.
+    /// Largest share.
     pub largest: f64,
 }
 
-/// Shares of planets in a mesh that each of them has, over some positions.
+/// Shares of the planets in the load of one kind of mesh, over several positions.
 ///
 /// ```text
 /// s_n = F_n/sum F,   K_gamma = N max s_n        F: sum of the normal forces, N: number of planets
 /// ```
-/// Theory (85a). A mesh that bears nothing at a position has no shares there.
+/// Theory (85a). Positions without load in these meshes have no shares.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadSharing {
-    /// K_gamma: the largest share of all planets and positions over that of an even load; `None` without load.
+    /// K_gamma: the largest share of any planet at any position, relative to an even share; `None` without load.
     pub factor: Option<f64>,
-    /// Shares of the planets, in the order of their meshes; none without load.
+    /// Shares of the planets, in the order of their meshes; empty without load.
     pub planets: Vec<PlanetShare>,
 }
 
 impl LoadSharing {
-    /// Of the meshes of all planets.
+    /// Shares in the meshes of all planets.
     pub fn of(positions: &[GearboxPosition], meshes: &[usize]) -> Self {
         let all: Vec<Vec<f64>> = positions.iter().filter_map(|p| load_shares(p, meshes)).collect();
         if all.is_empty() {
@@ -46,20 +46,21 @@ impl LoadSharing {
     }
 }
 
-/// Share of each planet at a position; `None` where no mesh of them bears anything. Theory (85a).
+/// Share of each planet at one position; `None` if none of the meshes carries load. Theory (85a).
 pub fn load_shares(position: &GearboxPosition, meshes: &[usize]) -> Option<Vec<f64>> {
     let forces = || meshes.iter().filter_map(|mesh| position.meshes.get(*mesh)).map(|mesh| mesh.normal_force);
     let sum: f64 = forces().sum();
     (sum > 0.0 && forces().count() == meshes.len()).then(|| forces().map(|force| force / sum).collect())
 }
 
-/// Play of planets between two central gears, mm along the lines of action: what errors of seats take of it, and what there
-/// is before flanks on the other side touch; `None` where the meshes have no two central gears in common.
+/// Play of planets between two central gears, mm along the lines of action: the play used by errors of seats, and the
+/// play until flanks on the other side touch. `None` if the meshes do not have two central gears in common.
 ///
 /// ```text
 /// (max e_n - min e_n) (cos a_1 + cos a_2) <= j_1 + j_2        e_n: along the circle, mm; j: backlash on the line of action, mm
 /// ```
-/// Teeth and shafts do not yield. `meshes`: of all planets, in their order, with either central gear. Theory (85d).
+/// Teeth and shafts are taken as rigid. `meshes` are those of all planets, in order, with either central gear. Theory
+/// (85d).
 pub fn planet_play(structure: &Structure, all: &[GearMesh], meshes: [&[usize]; 2]) -> Option<[f64; 2]> {
     let shafts = |mesh: &usize| Some(all.get(*mesh)?.discs.map(|disc| structure.discs[disc].shaft));
     let planets: Vec<usize> = (meshes[0].iter().zip(meshes[1]))

@@ -1,11 +1,11 @@
-//! What the meshes of a gearbox bear in the mean, and which bear nothing but round-off.
+//! Mean moments of the meshes of a gearbox, and the meshes that carry only round-off.
 
 use crate::GearboxPosition;
 
 /// Share of the largest moment on a gear of the gearbox below which a mesh bears nothing.
 const NOTHING: f64 = 1e-6;
 
-/// Mean moments of the meshes over positions.
+/// Mean moments of the meshes over several positions.
 #[derive(Debug)]
 pub struct MeshBears {
     /// About the axes of both gears of each mesh, N mm.
@@ -14,7 +14,7 @@ pub struct MeshBears {
 }
 
 impl MeshBears {
-    /// Of all meshes.
+    /// Mean moments of all meshes.
     pub fn of(positions: &[GearboxPosition]) -> Self {
         let meshes = positions.first().map_or(0, |first| first.meshes.len());
         let mean = |i: usize, gear: usize| {
@@ -25,7 +25,7 @@ impl MeshBears {
         Self { moments, least: NOTHING * largest }
     }
 
-    /// Mean moment of a mesh about the axis of its gear 0 or 1, N mm about +z; 0 where that is round-off.
+    /// Mean moment of a mesh about the axis of its gear 0 or 1, N mm about +z; 0 if it is only round-off.
     pub fn mean(&self, mesh: usize, gear: usize) -> f64 {
         let moment = self.moments[mesh][gear];
         if moment.abs() > self.least { moment } else { 0.0 }

@@ -1,4 +1,4 @@
-//! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (81).
+//! Interface of all meshes: force and tangent for displacements of their gears. Theory (81).
 
 use contact::SliceResult;
 use ltca::FilletField;
@@ -6,76 +6,80 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use crate::GearboxError;
 
-/// Displacements of gear 1 and gear 2, or forces on them: x, y, z and the turns about them, twice. The mesh's own axes:
-/// x from gear 1's axis to gear 2's, z as all axes.
+/// Displacements of gear 1 and gear 2, or forces on them: x, y, z and the rotations about them, for each gear. They are
+/// in the mesh's own axes: x from gear 1's axis to gear 2's, z as everywhere.
 pub type Vector12 = SVector<f64, 12>;
 
-/// Forces of a mesh and how they follow the displacements.
+/// Forces of a mesh and their derivative by the displacements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshForces {
-    /// Forces (N) and moments (N mm, about the gears' own centres) on gear 1 and gear 2: what does the work of the
-    /// displacements, so that the moments of the turns are those about the gears' own axes ([`contact::pose::generalised`]).
+    /// Forces (N) and moments (N mm, about the gears' own centres) on gear 1 and gear 2. They are conjugate to the
+    /// displacements, so the moments of the rotations are those about the gears' own axes
+    /// ([`contact::pose::generalised`]).
     pub force: Vector12,
-    /// df/dq: N/mm, N, N mm.
+    /// Tangent df/dq: N/mm, N, N mm.
     pub tangent: SMatrix<f64, 12, 12>,
     /// Sum of the normal forces, N.
     pub normal_force: f64,
 }
 
-/// Forces of a mesh on its gears and on their elastic modes, the modes in equilibrium with the flanks; axes of the mesh.
+/// Forces of a mesh on its gears and on their elastic modes, with the modes in equilibrium with the flanks; in the axes
+/// of the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalForces {
-    /// Amplitudes p of the modes of gear 1, then gear 2, mm t^(1/2): patterns that stand in space
-    /// ([`reduction::StandingModes`]), of a gear that is not cyclic those of its own frame.
+    /// Amplitudes p of the modes of gear 1, then of gear 2, mm t^(1/2). They are patterns fixed in space
+    /// ([`reduction::StandingModes`]); for a gear that is not cyclic, patterns in its own frame.
     pub amplitudes: DVector<f64>,
     /// Forces on the twelve displacements and on the modes: N, N mm, N t^(-1/2).
     pub force: DVector<f64>,
-    /// df/d(q, p), (12 + m) x (12 + m).
+    /// Tangent df/d(q, p), (12 + m) x (12 + m).
     pub tangent: DMatrix<f64>,
 }
 
-/// A mesh between two gears whose nominal motion is given: displacements count from where the unmodified flanks touch
-/// without load, at any phase.
+/// A mesh between two gears with given nominal motion. Displacements are counted from the position, at any phase, at
+/// which the unmodified flanks touch without load.
 pub trait MeshElement {
-    /// Moves the element to a place in the mesh cycles: gear 1 has rotated by this many pitches,
+    /// Moves the element to a position in the mesh cycles. `cycles` is the rotation of gear 1 in pitches, see
     /// [`crate::Train::cycles`].
     ///
     /// # Errors
-    /// [`GearboxError`] when the element cannot follow.
+    /// [`GearboxError`] if the element cannot follow.
     fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError>;
 
-    /// Forces at displacements.
+    /// Forces at given displacements.
     ///
     /// # Errors
-    /// [`GearboxError`] when there are none.
+    /// [`GearboxError`] if the forces cannot be computed.
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError>;
 
-    /// Asked once equilibrium is found, after the last [`MeshElement::evaluate`]: whether the forces are all there are.
+    /// Checks, once equilibrium is found and after the last [`MeshElement::evaluate`], that no other contact would add
+    /// forces.
     ///
     /// # Errors
-    /// [`GearboxError`] when they are not.
+    /// [`GearboxError`] if other contact would add forces.
     fn check(&mut self) -> Result<(), GearboxError> {
         Ok(())
     }
 
-    /// The same with the gears' elastic modes as coordinates, for elements that keep some; the last evaluation stays.
+    /// Forces with the gears' elastic modes as coordinates, for elements with modes; the last evaluation stays valid.
     ///
     /// # Errors
-    /// [`GearboxError`] where the modes find no equilibrium.
+    /// [`GearboxError`] if the modes find no equilibrium.
     fn modal(&mut self, displacements: &Vector12) -> Result<Option<ModalForces>, GearboxError> {
         let _ = displacements;
         Ok(None)
     }
 
-    /// Loaded slices of the last evaluation, for elements that know them.
+    /// Loaded slices of the last evaluation, for elements with slices.
     fn slices(&self) -> Vec<SliceResult> {
         Vec::new()
     }
 
-    /// Stress in the root fillets of both gears under the forces of the last evaluation, for elements that know it; else none.
+    /// Stress in the root fillets of both gears under the forces of the last evaluation, for elements that compute it;
+    /// otherwise empty.
     ///
     /// # Errors
-    /// [`GearboxError`] where it cannot be recovered.
+    /// [`GearboxError`] if it cannot be recovered.
     fn root_stress(&self) -> Result<[Vec<FilletField>; 2], GearboxError> {
         Ok(Default::default())
     }

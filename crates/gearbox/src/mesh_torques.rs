@@ -1,11 +1,11 @@
-//! Torques of the meshes of a train without rings, from equilibrium alone.
+//! Torques of the meshes of a train without closed loops, from equilibrium alone.
 
 use geometry::Gear;
 
 use crate::{GearMesh, Operation, Structure};
 
-/// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, friction left out; `None` where meshes close a
-/// ring, whose shares are a matter of stiffness, and where a shaft that is fixed in space takes a torque.
+/// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, without friction. `None` if meshes form a closed
+/// loop, in which the shares depend on stiffness, and if a shaft fixed in space takes a torque.
 ///
 /// ```text
 /// T_mesh + sum T_loads + sum T_meshes beyond = 0 on every shaft but that of the input,   T_1 / T_2 = z_1 / z_2 (below zero of a ring)

@@ -1,4 +1,4 @@
-//! The exact contact of gears that keep elastic modes, these modes in equilibrium with it. Theory (61), (86a).
+//! The exact contact of gears with elastic modes, with these modes in equilibrium with it. Theory (61), (86a).
 
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ impl ModalContact {
         self.contact.enter_window(pair, gears, window, set, options)
     }
 
-    /// Flanks and matrices.
+    /// Flanks and matrices of the window.
     pub fn contact_set(&self) -> &ContactSet {
         self.contact.contact_set()
     }
@@ -75,14 +75,15 @@ impl ModalContact {
     }
 
     /// Forces with the frames of the matrices at `poses` and the gears' own frames at `angles` (rad, axes of the mesh),
-    /// in the amplitudes that the flanks then press the gears into.
+    /// at the mode amplitudes that are in equilibrium with them.
     ///
     /// ```text
     /// Omega^2 q = H' F(d, q),   dq = (Omega^2 - T_qq)^-1 (H'F - Omega^2 q),   q = e^(theta N) p
     /// |dq| <= 1e-11 max(|q|, |M_2| / sqrt(-dM_2/d theta_2)),   |q|^2 = q' Omega^2 q
     /// ```
-    /// Steps are measured by what teeth and bodies have of strain energy under the moment M_2 on gear 2: modes that the load
-    /// does not excite, as axial ones of spur gears, have none, and what is left of them is round-off of the contact.
+    /// Steps are measured by the strain energy of teeth and bodies under the moment M_2 on gear 2. Modes that the load
+    /// does not excite, such as axial modes of spur gears, have none; their remaining amplitude is round-off of the
+    /// contact.
     pub fn solve(
         &mut self,
         poses: &[Pose; 2],

@@ -1,10 +1,11 @@
-//! Where the energy of a mode is: which shaft, bearing or mesh it bends, and what it moves. Theory (80).
+//! Distribution of a mode's energy: the shaft, bearing or mesh that it deforms, and the masses that it moves. Theory
+//! (80).
 
 use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::{Assembly, ElasticBody};
 
-/// A part that holds energy; numbers from 0.
+/// A part that holds energy; indices start from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Component {
     /// A shaft.
@@ -13,11 +14,11 @@ pub enum Component {
     Bearing(usize),
     /// The housing.
     Housing,
-    /// A mesh: springs first, then whole stiffnesses.
+    /// A mesh: the indices of springs come first, then those of whole stiffnesses.
     Mesh(usize),
-    /// A disc or gear body: what it moves, its elastic modes with it.
+    /// A disc or gear body: its kinetic energy, including that of its elastic modes.
     Disc(usize),
-    /// The elastic modes of the gear on a disc: what they strain beside the mesh.
+    /// The elastic modes of the gear on a disc: their strain energy outside the mesh.
     Body(usize),
     /// A machine at an end of the train.
     Machine(usize),
@@ -26,17 +27,18 @@ pub enum Component {
 /// A part and its share of the energy, 0 .. 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyShare {
-    /// The part.
+    /// Part that holds the energy.
     pub component: Component,
     /// Share of the energy, 0 .. 1.
     pub share: f64,
 }
 
-/// Shares of all parts in the strain energy and the kinetic energy of a mode, over a period; each adds up to 1.
+/// Shares of all parts in the strain energy and in the kinetic energy of a mode, averaged over a period. Each list adds
+/// up to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalEnergy {
-    /// Strain energy of shafts, bearings, housing and meshes. Empty where nothing is strained: a free motion whose
-    /// frequency is due to gyroscopic moments alone.
+    /// Strain energy of shafts, bearings, housing and meshes. Empty if nothing is deformed: a free motion whose
+    /// frequency is caused only by gyroscopic moments.
     pub strain: Vec<EnergyShare>,
     /// Kinetic energy of shafts, discs and machines.
     pub kinetic: Vec<EnergyShare>,

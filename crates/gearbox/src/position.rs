@@ -1,4 +1,4 @@
-//! Results of a solved position of a gearbox. Theory (85).
+//! Results of a gearbox at a solved position. Theory (85).
 
 use contact::SliceResult;
 use ltca::FilletField;

@@ -1,4 +1,5 @@
-//! How many motions of rigid shafts nothing holds: by what joins them, not by the size of eigenvalues. Theory (80).
+//! Number of rigid motions of shafts that are not held, counted from the connections and not from the magnitude of
+//! eigenvalues. Theory (80).
 
 use std::ops::Range;
 

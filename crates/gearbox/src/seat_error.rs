@@ -1,10 +1,10 @@
-//! Errors of bearings between shafts, and of shafts that do not turn.
+//! Errors of bearings between shafts, and of shafts that do not rotate.
 
-/// Why a bearing cannot sit in a shaft, or a shaft not stand.
+/// Reasons for which a bearing cannot be seated in a shaft, or a shaft cannot be stationary.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SeatError {
-    /// A bearing between a shaft and itself.
+    /// A bearing between a shaft and the same shaft.
     #[error("{bearing} is between shaft {shaft} and itself")]
     Itself {
         /// Name of the bearing.
@@ -12,17 +12,17 @@ pub enum SeatError {
         /// Name of the shaft.
         shaft: String,
     },
-    /// A seat beside the axis of a shaft that turns.
+    /// A seat off the axis of a rotating shaft.
     #[error("the seat of {bearing} is {arm_mm} mm beside the axis of shaft {shaft}, which turns")]
     Turns {
         /// Name of the bearing.
         bearing: String,
-        /// Name of the shaft that the seat is part of.
+        /// Name of the shaft that contains the seat.
         shaft: String,
         /// Distance from its axis, mm.
         arm_mm: f64,
     },
-    /// A bearing between shafts of which one is held.
+    /// A bearing between two shafts, one of which is held.
     #[error("{bearing} is between two shafts, and shaft {shaft} is held: bearings of held shafts are rigid")]
     Held {
         /// Name of the bearing.
@@ -30,16 +30,16 @@ pub enum SeatError {
         /// Name of the held shaft.
         shaft: String,
     },
-    /// A shaft that stands and that nothing keeps from turning.
+    /// A stationary shaft whose rotation nothing prevents.
     #[error("shaft {shaft} stands, and none of its bearings holds its turn")]
     Free {
         /// Name of the shaft.
         shaft: String,
     },
-    /// A part of a shaft that stands where one has to turn.
+    /// A part that must rotate, on a stationary shaft.
     #[error("{part} is on shaft {shaft}, which stands")]
     Stands {
-        /// Gear, input or torque.
+        /// Kind of part: gear, input or torque.
         part: String,
         /// Name of the shaft.
         shaft: String,
@@ -47,12 +47,12 @@ pub enum SeatError {
     /// A torque or the input on a shaft that is fixed in space.
     #[error("{part} is on shaft {shaft}, which is fixed in space")]
     Fixed {
-        /// Input or torque.
+        /// Kind of part: input or torque.
         part: String,
         /// Name of the shaft.
         shaft: String,
     },
-    /// An input that cannot turn while a shaft is fixed.
+    /// An input that cannot rotate while a shaft is fixed.
     #[error("with shaft {fixed} fixed in space the input on shaft {input} cannot turn")]
     Locked {
         /// Name of the input's shaft.
@@ -60,7 +60,7 @@ pub enum SeatError {
         /// Name of the fixed shaft.
         fixed: String,
     },
-    /// A shaft that stands and is held.
+    /// A shaft that is both stationary and held.
     #[error("shaft {shaft} is fixed and held, so nothing of it moves")]
     Nothing {
         /// Name of the shaft.
@@ -69,7 +69,7 @@ pub enum SeatError {
 }
 
 impl SeatError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Itself { .. } => {

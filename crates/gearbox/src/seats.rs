@@ -27,7 +27,7 @@ pub(crate) struct Seats {
 }
 
 impl Seats {
-    /// Seats of the discs that forces act on. `held`: which shafts are rigid in rigid bearings.
+    /// Seats of the discs on which forces act. `held` tells which shafts are rigid in rigid bearings.
     pub fn new(assembly: &Assembly, discs: &[usize], held: &[bool], input: usize) -> Result<Self, GearboxError> {
         let (mut nodes, mut shafts) = (Vec::new(), Vec::new());
         for &disc in discs {
@@ -97,23 +97,23 @@ impl Seats {
         Ok(Self { nodes, shafts, size, condensation, stiffness, basis })
     }
 
-    /// First coordinate of a disc's seat among the seats'.
+    /// First coordinate of a disc's seat in the list of seat coordinates.
     pub fn of_disc(&self, assembly: &Assembly, disc: usize) -> Option<usize> {
         self.of_node(assembly.disc(disc)?)
     }
 
-    /// First coordinate among the seats' of a node, by its first coordinate.
+    /// First coordinate of a node in the list of seat coordinates, from its first coordinate in the assembly.
     pub fn of_node(&self, node: usize) -> Option<usize> {
         Some(6 * self.nodes.iter().position(|n| *n == node)?)
     }
 
-    /// First coordinate among the seats' of an open seat of the housing.
+    /// First coordinate of an open seat of the housing in the list of seat coordinates.
     pub fn of_open(&self, assembly: &Assembly, at: usize) -> Option<usize> {
         let first = assembly.supports().open().first().and_then(|b| assembly.open_seat(*b))?;
         Some(6 * self.nodes.len() + at - first)
     }
 
-    /// Forces on all coordinates as those of the seats; none may act elsewhere.
+    /// Converts forces on all coordinates to forces on the seats; there must be no forces elsewhere.
     pub fn of_all(&self, forces: &DVector<f64>, assembly: &Assembly) -> DVector<f64> {
         let mut own = DVector::zeros(self.size);
         for (i, node) in self.nodes.iter().enumerate() {
@@ -127,7 +127,7 @@ impl Seats {
         own
     }
 
-    /// Seats of a shaft, each with its first coordinate among the seats' and among those of the assembly.
+    /// Seats of a shaft, each with its first coordinate among the seats and in the assembly.
     pub fn on_shaft(&self, shaft: usize) -> impl Iterator<Item = (usize, usize)> {
         let all = self.nodes.iter().zip(&self.shafts).enumerate();
         all.filter(move |(_, (_, s))| **s == shaft).map(|(i, (node, _))| (6 * i, *node))
@@ -138,7 +138,7 @@ impl Seats {
         self.size
     }
 
-    /// Displacements of all nodes.
+    /// Displacements of all nodes from those of the seats.
     pub fn all(&self, seats: &DVector<f64>) -> DVector<f64> {
         &self.condensation.map * seats
     }

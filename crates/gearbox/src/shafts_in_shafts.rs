@@ -1,4 +1,4 @@
-//! Bearings whose seats are part of other shafts, and shafts that do not turn: carriers and their pins. Theory (79c).
+//! Bearings whose seats are in other shafts, and shafts that do not rotate: carriers and their pins. Theory (79c).
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -8,7 +8,7 @@ use crate::{Bearing, GearboxError, SeatError, Structure};
 const ONE_AXIS: f64 = 1e-9;
 
 impl Structure {
-    /// Whether a shaft does not turn.
+    /// Whether a shaft does not rotate.
     pub fn stands(&self, shaft: usize) -> bool {
         self.standing.contains(&shaft)
     }

@@ -1,4 +1,5 @@
-//! A gearbox at an angle of its input: equilibrium from where the last positions lead to, then what is read off. Theory (84).
+//! A gearbox at one angle of its input: the equilibrium, started from an extrapolation of the last positions, and its
+//! results. Theory (84).
 
 use contact::SliceResult;
 use ltca::FilletField;
@@ -12,7 +13,7 @@ use crate::{
 };
 
 impl StaticGearbox {
-    /// Equilibrium with the input turned by `angle` (rad about +z) from its start.
+    /// Equilibrium with the input rotated by `angle` (rad about +z) from its start.
     ///
     /// # Errors
     /// [`GearboxError`].

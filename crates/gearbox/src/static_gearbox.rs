@@ -1,4 +1,4 @@
-//! Where shafts, bearings and gears stand under torques. Theory (81), (83), (84).
+//! Static equilibrium of shafts, bearings and gears under torques. Theory (81), (83), (84).
 
 use geometry::Sense;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
@@ -15,29 +15,29 @@ use crate::{
 /// A torque on a disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torque {
-    /// Disc.
+    /// Index of the disc.
     pub disc: usize,
-    /// N mm about +z; against the sense in which its shaft turns, for the input alone drives.
+    /// Torque, N mm about +z. It must act against the rotation of its shaft, because only the input drives.
     pub torque: f64,
 }
 
 /// Operation of a gearbox: input, sense, torques, held shafts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operation {
-    /// Disc whose turn is given: the input coupling.
+    /// Disc whose rotation is given: the input coupling.
     pub input: usize,
-    /// Sense in which it turns.
+    /// Sense of rotation of the input.
     pub sense: Sense,
     /// Torques of the outputs.
     pub torques: Vec<Torque>,
-    /// Angle of tooth 0 of each disc against the mark of its shaft, rad ([`Train::new`]).
+    /// Angle of tooth 0 of each disc relative to the mark of its shaft, rad ([`Train::new`]).
     pub keys: Vec<f64>,
-    /// Shafts that are rigid in rigid bearings: they turn about their axes and do nothing else. A pair alone is two of
+    /// Shafts that are rigid in rigid bearings: they only rotate about their axes. A single pair consists of two of
     /// them.
     pub held: Vec<usize>,
 }
 
-/// A gearbox at rest: any number of shafts and meshes.
+/// A gearbox in static equilibrium: any number of shafts and meshes.
 pub struct StaticGearbox {
     pub(crate) assembly: Assembly,
     pub(crate) meshes: Vec<GearMesh>,
@@ -63,10 +63,10 @@ pub struct StaticGearbox {
 }
 
 impl StaticGearbox {
-    /// Gearbox with one element a mesh, in their order; `elements` makes them from how the mesh runs.
+    /// Gearbox with one element per mesh, in order; `elements` makes them from the running of the mesh.
     ///
     /// # Errors
-    /// [`GearboxError`]: where parts do not fit, a torque drives, or something moves freely.
+    /// [`GearboxError`] if parts do not fit together, a torque drives, or a part can move freely.
     pub fn new(
         structure: Structure,
         meshes: Vec<GearMesh>,
@@ -134,12 +134,12 @@ impl StaticGearbox {
         &self.train
     }
 
-    /// Matrices and parts.
+    /// Matrices and parts of the structure.
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
     }
 
-    /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
+    /// Forces and tangents of the meshes at the last solved position, in their own axes; empty before the first.
     pub fn replies(&self) -> &[MeshForces] {
         &self.replies
     }

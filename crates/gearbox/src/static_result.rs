@@ -1,4 +1,4 @@
-//! Results of a gearbox at rest, position by position.
+//! Results of a gearbox in static equilibrium at its positions.
 
 use contact::SliceResult;
 use ltca::FilletField;
@@ -8,68 +8,69 @@ use crate::rolling_bearing::RollingState;
 /// Deflection line of a shaft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShaftLine {
-    /// Nodes, mm from the shaft's z = 0, ascending.
+    /// Axial positions of the nodes, mm from the shaft's z = 0, ascending.
     pub positions: Vec<f64>,
-    /// Displacements x, y, z (mm) and turns about them (rad) of each node, common axes.
+    /// Displacements x, y, z (mm) and rotations about them (rad) of each node, common axes.
     pub displacements: Vec<[f64; 6]>,
 }
 
-/// What a bearing carries; zero on a held shaft, whose reaction stands by itself.
+/// Load of a bearing; zero on a held shaft, whose reaction is given separately.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct BearingState {
     /// Force on the shaft, N.
     pub force: [f64; 3],
     /// Moment on the shaft about the bearing's middle, N mm.
     pub moment: [f64; 3],
-    /// Displacement of the shaft against the seat in the housing, mm, and turns of one against the other (rad): its
-    /// fourth and fifth entry are the tilt that the bearing has to stand.
+    /// Displacement of the shaft relative to the seat in the housing, mm, and relative rotations (rad). The fourth and
+    /// fifth entries are the tilt that the bearing must tolerate.
     pub displacement: [f64; 6],
 }
 
 /// State of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshState {
-    /// Mesh cycles: whole ones, and the phase behind the point ([`crate::Train::cycles`]).
+    /// Mesh cycles: whole cycles plus the phase as fraction ([`crate::Train::cycles`]).
     pub cycles: f64,
-    /// Displacements of gear 1 and gear 2 from their nominal places, mm and rad, in the mesh's own axes.
+    /// Displacements of gear 1 and gear 2 from their nominal positions, mm and rad, in the mesh's own axes.
     pub displacements: [f64; 12],
     /// Force on gear 1 and gear 2, N, common axes.
     pub force: [[f64; 3]; 2],
-    /// Moment on them about their centres, N mm, common axes.
+    /// Moment on gear 1 and gear 2 about their centres, N mm, common axes.
     pub moment: [[f64; 3]; 2],
     /// Sum of the normal forces, N.
     pub normal_force: f64,
-    /// Transmission error by the turns of both gears, mm on the transverse line of action: positive when the driven gear
-    /// lags.
+    /// Transmission error from the rotations of both gears, mm on the transverse line of action; positive if the driven
+    /// gear lags.
     ///
     /// ```text
     /// te = s (r_b1 theta_1 + r_b2 theta_2)      theta: turns about +z beside the nominal ones, s = +1 left, -1 right flanks
     /// ```
-    /// What the axes give way by is part of it: the driven gear makes up for it by lagging more.
+    /// It includes the deflection of the axes, for which the driven gear compensates by a larger lag.
     pub transmission_error: f64,
-    /// f_in: deviation of gear 2's axis from gear 1's in the plane of action, mm over the face width; positive where the
-    /// gap opens as z grows ([`contact::Misalignment`]). By shafts, bearings and housing alone.
+    /// f_in: deviation of gear 2's axis from gear 1's in the plane of action, mm over the face width; positive if the
+    /// gap opens with increasing z ([`contact::Misalignment`]). It is caused only by shafts, bearings and housing.
     pub misalignment_in_plane: f64,
-    /// f_across, across that plane.
+    /// f_across: the same deviation perpendicular to the plane of action.
     pub misalignment_across: f64,
-    /// Loaded slices, for elements that know them: the line load over the width.
+    /// Loaded slices, for elements with slices: the line load over the face width.
     pub slices: Vec<SliceResult>,
-    /// Stress in the root fillets of the windows of gear 1 and gear 2, for elements that were asked for it.
+    /// Stress in the root fillets of the windows of gear 1 and gear 2, for elements that compute it.
     pub root_stress: [Vec<FilletField>; 2],
 }
 
 /// Residuals of a solved position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxCertificate {
-    /// Forces left over at the seats over the load, in the norm of the compliance, before the last small step.
+    /// Residual forces at the seats before the last small step, divided by the load, in the norm of the compliance.
     pub residual: f64,
-    /// Largest sum of forces, or of moments, on a shaft over the largest that acts on it: meshes, torques, bearings.
+    /// Largest sum of forces, or of moments, on a shaft, divided by the largest one that acts on it: meshes, torques,
+    /// bearings.
     pub body_balance: f64,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub iterations: usize,
 }
 
-/// A gearbox at one angle of its input.
+/// Results of a gearbox at one angle of its input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxPosition {
     /// Angle of the input shaft from its start, rad about +z.
@@ -78,7 +79,7 @@ pub struct GearboxPosition {
     pub shafts: Vec<ShaftLine>,
     /// Bearings in their order.
     pub bearings: Vec<BearingState>,
-    /// What is known of those among them that have rolling elements.
+    /// Details of those bearings that have rolling elements.
     pub rolling: Vec<Option<RollingState>>,
     /// Meshes in their order.
     pub meshes: Vec<MeshState>,
@@ -86,21 +87,21 @@ pub struct GearboxPosition {
     pub input_torque: f64,
     /// Force (N) and moment about its origin (N mm) that hold a held shaft; `None` for shafts in bearings.
     pub held_reactions: Vec<Option<[f64; 6]>>,
-    /// How far the discs of the torques stay behind their nominal turn, rad, in the order of the torques: the
-    /// transmission error from input to output.
+    /// Lag of the discs with torques behind their nominal rotation, rad, in the order of the torques: the transmission
+    /// error from input to output.
     pub output_lags: Vec<f64>,
     /// Residuals of the solution.
     pub certificate: GearboxCertificate,
 }
 
-/// K_Hbeta of a mesh over some positions, of a face of `slices` slices ([`ltca::face_load_factor`]); `None` where its
-/// element knows no slices, and without load.
+/// K_Hbeta of a mesh over several positions, for a face with `slices` slices ([`ltca::face_load_factor`]); `None` if
+/// its element has no slices, and without load.
 pub fn face_load_factor(positions: &[GearboxPosition], mesh: usize, slices: usize) -> Option<f64> {
     let of_mesh = positions.iter().filter_map(|p| p.meshes.get(mesh));
     ltca::face_load_factor(slices, of_mesh.flat_map(|m| &m.slices))
 }
 
-/// Height on gear 1 (mm, ascending) and largest line load (N/mm) that it sees over some positions.
+/// Heights on gear 1 (mm, ascending), each with its largest line load (N/mm) over several positions.
 pub fn line_load(positions: &[GearboxPosition], mesh: usize) -> Vec<(f64, f64)> {
     let of_mesh = positions.iter().filter_map(|p| p.meshes.get(mesh));
     let mut of_height = ltca::load_envelope(of_mesh.flat_map(|m| &m.slices));

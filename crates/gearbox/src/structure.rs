@@ -8,32 +8,32 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::{Bearing, ElasticBody, GearboxError};
 
-/// A shaft: Timoshenko sections one after the other along +z.
+/// A shaft: consecutive Timoshenko beam sections along +z.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
     /// Name for messages and tables.
     pub name: String,
-    /// Place of the shaft's own z = 0 in the gearbox, mm. Axes of all shafts are along +z.
+    /// Position of the shaft's own z = 0 in the gearbox, mm. Axes of all shafts are along +z.
     pub origin: [f64; 3],
-    /// Sections, from its own z = 0 on; none of a rigid body, all of whose discs and bearings sit there.
+    /// Sections, starting at the shaft's own z = 0; empty for a rigid body, whose discs and bearings are all at z = 0.
     pub pieces: Vec<BeamPiece>,
-    /// Longest beam element, mm; at rest it does not matter, for the elements are exact.
+    /// Longest beam element, mm; it does not affect static results, because the elements are exact.
     pub longest_element: f64,
 }
 
-/// A rigid disc or gear body on a shaft; without mass it is a seat: of a gear that is elastic itself, of a coupling, or
-/// of anything else that a force acts on.
+/// A rigid disc or gear body on a shaft. Without mass it is a seat: of an elastic gear, of a coupling, or of any other
+/// point on which a force acts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disc {
     /// Name for messages and tables.
     pub name: String,
-    /// Shaft, from 0.
+    /// Index of the shaft, from 0.
     pub shaft: usize,
     /// Position of its mid-plane, mm from the shaft's z = 0.
     pub position: f64,
-    /// Height of its mid-plane above the cross-section of the shaft that it moves with, mm: 0 for most; else of a gear
-    /// that is meshed in one with the shaft from there on, or sits on a hub of that reach. The cross-section has to be
-    /// on the shaft, the mid-plane need not.
+    /// Height of its mid-plane above the cross-section with which it moves, mm. It is 0 for most discs. It differs for
+    /// a gear that is meshed as one body with part of the shaft, or that sits on a hub of this length. The
+    /// cross-section must be on the shaft, the mid-plane need not.
     pub reach: f64,
     /// Mass, t.
     pub mass: f64,
@@ -43,12 +43,12 @@ pub struct Disc {
     pub polar_inertia: f64,
 }
 
-/// A mesh as one spring along its line of action: a mean mesh stiffness, for natural frequencies.
+/// A mesh as one spring along its line of action: a mean mesh stiffness for natural frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshSpring {
     /// Name for messages and tables.
     pub name: String,
-    /// Gears 1 and 2, numbers of discs.
+    /// Disc indices of gears 1 and 2.
     pub discs: [usize; 2],
     /// Compression of the spring for unit displacements and rotations of gear 1 and gear 2: 1, mm.
     pub levers: [Vector6<f64>; 2],
@@ -56,31 +56,31 @@ pub struct MeshSpring {
     pub stiffness: f64,
 }
 
-/// A mesh as a stiffness between its gears, tilts and elastic modes included: the mean of an exact contact's tangent,
-/// turned about.
+/// A mesh as a stiffness between its gears, including tilts and elastic modes: the mean tangent of an exact contact,
+/// rotated to common axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticMesh {
     /// Name for messages and tables.
     pub name: String,
-    /// Gears 1 and 2, numbers of discs.
+    /// Disc indices of gears 1 and 2.
     pub discs: [usize; 2],
-    /// Stiffness for displacements and turns of gear 1 and gear 2, and behind them for the modes of both where their discs
-    /// have an [`ElasticBody`]; common axes, symmetric: N/mm, N, N mm, and mm t^(1/2) in place of mm for modes.
+    /// Stiffness for displacements and rotations of gear 1 and gear 2, followed by the modes of both if their discs
+    /// have an [`ElasticBody`]; common axes, symmetric: N/mm, N, N mm, with mm t^(1/2) instead of mm for modes.
     pub stiffness: DMatrix<f64>,
 }
 
-/// A machine behind a coupling that passes on torque alone: its rotor turns with the shaft and does not tilt with it.
+/// A machine behind a coupling that transmits only torque: its rotor rotates with the shaft and does not tilt with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
     /// Name for messages and tables.
     pub name: String,
-    /// Disc that it turns with.
+    /// Index of the disc with which it rotates.
     pub disc: usize,
     /// Inertia about its axis, t mm^2.
     pub inertia: f64,
 }
 
-/// All of it. Lengths in mm, forces in N, masses in t; common axes x, y, z.
+/// All parts of a gearbox. Lengths in mm, forces in N, masses in t; common axes x, y, z.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Structure {
     /// Shafts.
@@ -89,21 +89,21 @@ pub struct Structure {
     pub discs: Vec<Disc>,
     /// Bearings.
     pub bearings: Vec<Bearing>,
-    /// Stiffness of the housing between the bearing seats, six coordinates a bearing in their order, symmetric; held on
-    /// its foundation. `None`: rigid.
+    /// Stiffness of the housing between the bearing seats, six coordinates per bearing in order, symmetric; the housing
+    /// is held at its foundation. `None`: rigid.
     pub housing: Option<DMatrix<f64>>,
     /// Meshes as springs.
     pub springs: Vec<MeshSpring>,
-    /// Meshes as whole stiffnesses.
+    /// Meshes as whole stiffness matrices.
     pub elastic_meshes: Vec<ElasticMesh>,
-    /// Modes of gears, at most once for a disc: of vibration alone, a motion has rigid gears beside their teeth.
+    /// Modes of gears, at most once per disc; only for vibration. In a motion, gears are rigid apart from their teeth.
     pub bodies: Vec<ElasticBody>,
     /// Machines at the ends of the train.
     pub machines: Vec<Machine>,
-    /// Shafts that do not turn, whose bearings hold their turn as well: carriers seen from themselves, and pins.
+    /// Shafts that do not rotate and whose rotation is held by their bearings: carriers in their own frame, and pins.
     pub standing: Vec<usize>,
-    /// Shaft that does not turn in space while the frame of the carrier does: a ring, or a sun. Its bearings hold its turn.
-    /// `None`: the carrier does not turn in space.
+    /// Shaft that does not rotate in space while the frame of the carrier rotates: a ring or a sun. Its bearings hold
+    /// its rotation. `None`: the carrier does not rotate in space.
     pub fixed: Option<usize>,
 }
 
@@ -113,7 +113,7 @@ impl Disc {
         Self { name: name.into(), shaft, position, reach: 0.0, mass: 0.0, diametral_inertia: 0.0, polar_inertia: 0.0 }
     }
 
-    /// A ring between two diameters (mm), of some width (mm) and density (t/mm^3).
+    /// A ring between two diameters (mm), with given width (mm) and density (t/mm^3).
     ///
     /// ```text
     /// m = rho pi w (D^2 - d^2)/4,   I_p = m (D^2 + d^2)/8,   I_d = I_p/2 + m w^2/12
@@ -132,7 +132,7 @@ impl Disc {
         Self { name: name.into(), shaft, position, reach: 0.0, mass, diametral_inertia, polar_inertia }
     }
 
-    /// The disc, moving with the cross-section at `seat` (mm from the shaft's z = 0).
+    /// The same disc, moving with the cross-section at `seat` (mm from the shaft's z = 0).
     pub fn seated_at(self, seat: f64) -> Self {
         Self { reach: self.position - seat, ..self }
     }
@@ -150,10 +150,10 @@ impl Disc {
 }
 
 impl MeshSpring {
-    /// The spring of two involute gears, evenly loaded: the levers of theory (53).
+    /// The spring of two involute gears with even load; its levers are those of theory (53).
     ///
     /// # Errors
-    /// [`GearboxError::Mesh`] when the gears have no line of action.
+    /// [`GearboxError::Mesh`] if the gears have no line of action.
     pub fn new(
         name: impl Into<String>,
         discs: [usize; 2],

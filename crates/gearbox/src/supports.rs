@@ -1,12 +1,12 @@
-//! Bearings in series with the housing: what holds the shafts at their bearing seats. Theory (79), (79c).
+//! Bearings in series with the housing, which hold the shafts at their bearing seats. Theory (79), (79c).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use crate::{GearboxError, Structure};
 
-/// Stiffness of bearings and housing, seen from the shafts; six coordinates a bearing: displacement of its shaft, against
-/// that of the shaft its seat is part of where it is. The seats of rolling bearings in a housing stay coordinates of their
-/// own: six more each, in the order of the bearings.
+/// Stiffness of bearings and housing, as seen from the shafts. Each bearing has six coordinates: the displacement of
+/// its shaft, relative to that of the shaft that contains its seat, if any. The seats of rolling bearings in a housing
+/// stay coordinates of their own: six more each, in the order of the bearings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
     /// Stiffness for displacements of the shafts at the bearings, and of open seats.
@@ -102,7 +102,7 @@ impl Supports {
         self.housing.as_ref().is_some_and(|k| k[(6 * bearing + axis, 6 * bearing + axis)] > 0.0)
     }
 
-    /// Displacements of the seats in the housing when the shafts move by `u`, beside what preloads do, mm, rad.
+    /// Displacements of the seats in the housing when the shafts move by `u`, without the effect of preloads, mm, rad.
     pub fn seats(&self, u: &DVector<f64>) -> DVector<f64> {
         &self.seats * u
     }
@@ -123,13 +123,13 @@ impl Supports {
         u.rows(0, self.seats.nrows()) - self.seats(u)
     }
 
-    /// Forces of the bearings' springs on the shafts when these move by `u`, beside preloads and rolling elements: N,
+    /// Forces of the bearings' springs on the shafts when these move by `u`, without preloads and rolling elements: N,
     /// N mm.
     pub fn forces(&self, u: &DVector<f64>) -> DVector<f64> {
         -(&self.bearings * self.relative(u))
     }
 
-    /// Twice the strain energy of each bearing, and of the housing, N mm; preloads and rolling elements beside.
+    /// Twice the strain energy of each bearing, and of the housing, N mm; without preloads and rolling elements.
     pub fn energies(&self, u: &DVector<f64>) -> (Vec<f64>, Option<f64>) {
         let seats = self.seats(u);
         let relative = self.relative(u);

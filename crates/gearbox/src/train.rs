@@ -1,4 +1,4 @@
-//! Which way gears turn, how fast, which of them drive, and at which phase their meshes are. Theory (82).
+//! Kinematics of the train: sense, speed and driver of all gears, and the phases of their meshes. Theory (82).
 
 use std::f64::consts::TAU;
 
@@ -6,36 +6,38 @@ use geometry::{Driver, Gear, GearPair, Sense, Side};
 
 use crate::{GearboxError, SeatError, Structure};
 
-/// A mesh: two gears, seats on their shafts, and what shape they are.
+/// A mesh: two gears, their seats on the shafts, and their geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearMesh {
     /// Name for messages and tables.
     pub name: String,
     /// Discs of gear 1 and gear 2, whichever drives.
     pub discs: [usize; 2],
-    /// Their shapes; gear 1 is the pair's pinion.
+    /// Geometry of both gears; gear 1 is the pair's pinion.
     pub pair: GearPair,
 }
 
 /// Running of one mesh: driver, sense, flanks, direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meshing {
-    /// Sense in which gear 1 turns.
+    /// Sense of rotation of gear 1.
     pub sense: Sense,
-    /// Driving gear: the one that is nearer to the input.
+    /// Driving gear: the one nearer to the input.
     pub driver: Driver,
-    /// Direction from gear 1's axis to the contact, rad from +x towards +y: to gear 2's axis, away from that of a ring.
+    /// Direction from gear 1's axis to the contact, rad from +x towards +y: towards gear 2's axis; for a ring, away
+    /// from it.
     pub direction: f64,
-    /// Angle of gear 1's tooth 0 with the input at 0, rad from +x.
+    /// Angle of tooth 0 of gear 1 with the input at 0, rad from +x.
     pub start: f64,
-    /// Turns of gear 1 a turn of the input shaft, negative against it.
+    /// Rotations of gear 1 per rotation of the input shaft; negative if opposite.
     pub ratio: f64,
-    /// Turn by which gear 2 has to be set against its key so that its flanks touch, rad, at most half a pitch: 0 but where the train
-    /// closes a ring (idlers, power splits), whose last gear meets teeth that are already placed.
+    /// Rotation by which gear 2 must be set relative to its key so that its flanks touch, rad, at most half a pitch. It
+    /// is 0 unless the train has a closed loop (idlers, power splits), whose last gear meets teeth that are already
+    /// placed.
     pub timing: f64,
 }
 
-/// Nominal motion of the whole train from one input: rigid, unloaded flanks in touch at every mesh.
+/// Nominal motion of the whole train from one input: rigid, with unloaded flanks in contact at every mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Train {
     meshes: Vec<Meshing>,
@@ -48,27 +50,27 @@ pub struct Train {
 const SAME: f64 = 1e-9;
 
 impl Train {
-    /// Follows the meshes from the shaft of disc `input`, which turns in `sense`.
+    /// Follows the meshes from the shaft of disc `input`, which rotates in `sense`.
     ///
     /// ```text
     /// omega_2 = -omega_1 z_1/z_2 (z_2 < 0 of a ring),   theta_2 = theta_w(theta_1 - phi) + phi
     /// ```
-    /// phi: direction of the mesh, theta_w: angle of the wheel whose flanks touch ([`GearPair::wheel_angle`]). `keys[i]`
-    /// is the angle of tooth 0 of disc i against the mark of its shaft, rad; the mark of the input shaft is at 0, and
-    /// those of the others follow from the first mesh that reaches them.
+    /// phi is the direction of the mesh, theta_w the angle of the wheel at which flanks touch
+    /// ([`GearPair::wheel_angle`]). `keys[i]` is the angle of tooth 0 of disc i relative to the mark of its shaft, rad.
+    /// The mark of the input shaft is at 0; those of the other shafts follow from the first mesh that reaches them.
     ///
-    /// Where a shaft is fixed in space ([`Structure::fixed`]) the frame of the carrier turns, and ratios count turns in that
-    /// frame for a turn of the input in space (Willis):
+    /// If a shaft is fixed in space ([`Structure::fixed`]), the frame of the carrier rotates. Ratios are rotations in
+    /// that frame per rotation of the input in space (Willis):
     ///
     /// ```text
     /// n_i - n_c = r_i/(r_in - r_f) n_in,   n_c = -r_f/(r_in - r_f) n_in      r: by the teeth, carrier at rest (r_c = 0)
     /// ```
-    /// Meshes are followed from the input, or from the fixed shaft where the input is on what stands, or takes power from
-    /// the meshes in that frame.
+    /// Meshes are followed from the input. They are followed from the fixed shaft instead if the input is on a part
+    /// that does not rotate in that frame, or takes power from the meshes in it.
     ///
     /// # Errors
-    /// [`GearboxError`]: distances of axes and offsets of mid-faces that the pairs were not made for, rings whose ratios
-    /// disagree, shafts that nothing drives.
+    /// [`GearboxError`]: axis distances and mid-face offsets that do not match the pairs, closed loops with
+    /// contradicting ratios, shafts that nothing drives.
     pub fn new(
         structure: &Structure,
         meshes: &[GearMesh],
@@ -131,20 +133,20 @@ impl Train {
         &self.meshes
     }
 
-    /// Turns of each shaft in the frame of the carrier a turn of the input shaft, negative against it; 0 of shafts that
-    /// stand.
+    /// Rotations of each shaft in the frame of the carrier per rotation of the input shaft, negative if opposite; 0 for
+    /// stationary shafts.
     pub fn ratios(&self) -> &[f64] {
         &self.ratios
     }
 
-    /// Turns of each shaft in space a turn of the input shaft, negative against it: [`Train::ratios`] and the turns of the
-    /// carrier.
+    /// Rotations of each shaft in space per rotation of the input shaft, negative if opposite: [`Train::ratios`] plus
+    /// the rotation of the carrier.
     pub fn ratios_in_space(&self) -> &[f64] {
         &self.in_space
     }
 
-    /// Mesh cycles of each mesh with the input shaft turned by `angle` (rad about +z) from its start: whole cycles count the
-    /// teeth of gear 1 in its sense, from where its tooth 0 is in the middle of the path of contact at 1/2.
+    /// Mesh cycles of each mesh with the input shaft rotated by `angle` (rad about +z) from its start. Whole cycles
+    /// count the teeth of gear 1 in its sense of rotation; at 1/2 its tooth 0 is in the middle of the path of contact.
     ///
     /// ```text
     /// c = sign (theta_1 - phi - theta_m) z_1/(2 pi) + 1/2,   theta_1 = start + ratio angle
@@ -245,7 +247,7 @@ impl Meshing {
         self.driver.loaded_side(self.sense)
     }
 
-    /// Angles of tooth 0 of gear 1 and of gear 2, whose flanks touch, with the input at 0, rad from +x.
+    /// Angles of tooth 0 of gear 1 and of gear 2 with touching flanks and the input at 0, rad from +x.
     pub fn gear_angles(&self, pair: &GearPair) -> [f64; 2] {
         [self.start, wheel_angle(pair, self.side(), self.start, self.direction)]
     }

@@ -1,4 +1,5 @@
-//! Shafts that nothing holds against a rigid motion: named before a matrix would only say a number.
+//! Shafts with a rigid motion that nothing holds. They are reported by name before the solution of a singular matrix
+//! fails.
 
 use nalgebra::{DMatrix, DVector, Matrix5, Matrix6, SymmetricEigen, Vector6};
 
@@ -113,9 +114,9 @@ pub(crate) fn check_held(
 }
 
 impl Structure {
-    /// Whether bearings and meshes hold every shaft but those of `held`, which are rigid in rigid bearings, against every
-    /// rigid motion. Springs about a load hold nothing where rolling elements carry nothing. `input`: the disc whose turn
-    /// is given.
+    /// Checks that bearings and meshes hold every shaft against every rigid motion, except those of `held`, which are
+    /// rigid in rigid bearings. Springs linearised about a load do not count if their rolling elements carry nothing.
+    /// `input` is the disc whose rotation is given.
     ///
     /// # Errors
     /// [`GearboxError::Loose`].

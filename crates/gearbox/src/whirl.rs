@@ -13,18 +13,18 @@ const MOST: f64 = 1e100;
 /// Share of a mode's kinetic energy up to which that of a shaft across its axis is round-off.
 const LATERAL: f64 = 1e-6;
 
-/// One natural motion exp(lambda t), lambda = -decay + i frequency.
+/// A natural mode exp(lambda t), lambda = -decay + i frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WhirlMode {
     /// Angular frequency, rad/s, > 0.
     pub frequency: f64,
-    /// Rate at which it dies away, 1/s; 0 without damping.
+    /// Decay rate, 1/s; 0 without damping.
     pub decay: f64,
     /// Complex amplitudes of all coordinates of the [`Assembly`], mm and rad, with x^H M x = 1 t mm^2; the largest
-    /// contribution to that is real.
+    /// contribution to this product is real.
     pub shape: DVector<Complex<f64>>,
-    /// How far each shaft whirls with its own spin: +1 forward on circles, -1 backward, 0 in a plane. 0 as well for a
-    /// shaft at rest and for one that moves along or about its axis alone.
+    /// Whirl of each shaft relative to its own spin: +1 forward on circles, -1 backward, 0 in a plane. Also 0 for a
+    /// shaft that does not spin and for one that moves only along or about its axis.
     ///
     /// ```text
     /// w = -2 sign(Omega) sum Im(conj(x) y) / sum (|x|^2 + |y|^2)      over the nodes
@@ -34,20 +34,20 @@ pub struct WhirlMode {
     pub energy: ModalEnergy,
 }
 
-/// All natural motions at one speed.
+/// All natural modes at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WhirlModes {
     /// Speeds of the shafts, rad/s about +z.
     pub speeds: Vec<f64>,
-    /// Oscillating ones, ascending in frequency.
+    /// Oscillating modes, ascending in frequency.
     pub modes: Vec<WhirlMode>,
-    /// Number of zero eigenvalues: two for each rigid motion that nothing holds.
+    /// Number of zero eigenvalues: two per rigid motion that is not held.
     pub zeros: usize,
-    /// Rates of motions that die away without oscillating, 1/s, ascending.
+    /// Decay rates of motions without oscillation, 1/s, ascending.
     pub decaying: Vec<f64>,
 }
 
-/// Natural motions of an assembly at any speed; the modes at rest are found once.
+/// Natural modes of an assembly at any speed; the modes without spin are computed once.
 #[derive(Debug, Clone)]
 pub struct Rotors {
     pub(crate) assembly: Assembly,
@@ -60,12 +60,12 @@ pub struct Rotors {
     pub(crate) unit_damping: DMatrix<f64>,
 }
 
-/// Held parts: what does not move, or moves as a whole.
+/// Held parts: parts that do not move, or move as a whole.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Held {
-    /// Shafts that are rigid in rigid bearings: they turn about their axes and do nothing else.
+    /// Shafts that are rigid in rigid bearings: they only rotate about their axes.
     pub shafts: Vec<usize>,
-    /// Discs whose turn is given: a machine of any inertia.
+    /// Discs whose rotation is given, whatever the inertia of the machine there.
     pub turns: Vec<usize>,
 }
 
@@ -81,22 +81,22 @@ impl Held {
 }
 
 impl Rotors {
-    /// Modes at rest, which all others are made of.
+    /// Computes the modes without spin, from which all others are composed.
     ///
-    /// As many frequencies at rest are 0 as there are rigid motions that bearings and meshes do not resist; these are
-    /// counted by what joins the shafts, and not by the size of frequencies.
+    /// The number of zero frequencies without spin is the number of rigid motions that bearings and meshes do not
+    /// resist. These are counted from the connections of the shafts, and not from the magnitude of frequencies.
     ///
     /// # Errors
-    /// [`GearboxError::Matrix`] where a coordinate has no mass; [`GearboxError::LostMode`] where the square of the lowest
-    /// other frequency is below n eps times that of the highest, n coordinates: round-off.
+    /// [`GearboxError::Matrix`] if a coordinate has no mass; [`GearboxError::LostMode`] if the square of the lowest
+    /// other frequency is below n eps times that of the highest (n coordinates), which is round-off.
     pub fn new(assembly: Assembly) -> Result<Self, GearboxError> {
         Self::holding(assembly, &Held::default())
     }
 
-    /// Rotors with something held: q = B z, B'K B and B'M B.
+    /// Rotors with held parts: q = B z, B'K B and B'M B.
     ///
     /// # Errors
-    /// As [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for what is not there.
+    /// The errors of [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for parts that do not exist.
     pub fn holding(assembly: Assembly, held: &Held) -> Result<Self, GearboxError> {
         assembly.structure().check_linear()?;
         let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
@@ -132,12 +132,12 @@ impl Rotors {
         &self.assembly
     }
 
-    /// Undamped modes at rest: angular frequencies (rad/s, rigid motions 0) and shapes of unit mass.
+    /// Undamped modes without spin: angular frequencies (rad/s, 0 for rigid motions) and shapes of unit mass.
     pub fn modes_at_rest(&self) -> &Modes {
         &self.rest
     }
 
-    /// Natural motions with the shafts spinning at `speeds` (rad/s about +z, one a shaft).
+    /// Natural modes with the shafts spinning at `speeds` (rad/s about +z, one per shaft).
     ///
     /// ```text
     /// q = Phi eta,   d/dt [W eta; eta'] = [0, W; -W, -Phi'(C + G) Phi] [W eta; eta']      W = diag(omega) at rest

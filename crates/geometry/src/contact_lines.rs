@@ -5,9 +5,9 @@ use crate::{GearPair, Side};
 /// Contact line of one tooth pair, unloaded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLine {
-    /// Pinion tooth, not wrapped.
+    /// Pinion tooth number, not wrapped to 0..z.
     pub tooth: i64,
-    /// Axial range [z_0, z_1] over the pinion's mid-face, mm.
+    /// Axial range [z_0, z_1], measured from the pinion's mid-face, mm.
     pub z: [f64; 2],
     /// Length along the line, mm.
     pub length: f64,
@@ -51,18 +51,18 @@ impl PlaneOfAction {
 impl GearPair {
     /// Contact line of pinion tooth `tooth` at pinion angle `pinion_angle` (rad), if it is in contact.
     ///
-    /// In the plane of action (path of contact by face width) the line is straight, inclined by b_b; it is clipped
-    /// by the rectangle: xi_A <= xi(z) <= xi_E, z within the common face.
+    /// In the plane of action (path of contact by face width) the line is straight and inclined by b_b. It is clipped
+    /// by the rectangle xi_A <= xi(z) <= xi_E, z within the common face.
     pub fn contact_line(&self, side: Side, pinion_angle: f64, tooth: i64) -> Option<ContactLine> {
         PlaneOfAction::of(self, side).contact_line(self.path_coordinate(side, pinion_angle, tooth, 0.0), tooth)
     }
 
-    /// Mean over a contact line of how far the flanks slide on each other per radian of the pinion's rotation, mm.
+    /// Sliding of the flanks on each other per radian of the pinion's rotation, averaged over a contact line, mm.
     ///
     /// ```text
     /// v_g / omega_1 = (1 + z_1 / z_2) |xi - xi_C|
     /// ```
-    /// xi runs linearly along the line, through the pitch point or past it.
+    /// xi varies linearly along the line; the line may cross the pitch point.
     pub fn mean_sliding(&self, side: Side, pinion_angle: f64, line: &ContactLine) -> f64 {
         let pitch_point = self.pinion.base_radius() * self.working_pressure_angle().tan();
         let along = self.path_coordinates(side, pinion_angle);

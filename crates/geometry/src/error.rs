@@ -1,22 +1,22 @@
-//! What can be wrong with the data of a gear or a pair.
+//! Errors in the data of a gear or a pair.
 
-/// A gear that lost flank to the tip of its rack.
+/// A gear whose flank is undercut by the tip of its rack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Undercut {
-    /// `pinion` or `wheel`.
+    /// Name of the gear, `pinion` or `wheel`.
     pub gear: &'static str,
-    /// Profile shift coefficients of pinion and wheel with which the teeth meet enough; none where none do.
+    /// Profile shift coefficients of pinion and wheel that give a sufficient contact ratio; `None` if there are none.
     pub cure: Option<[f64; 2]>,
-    /// Whether they need the centre distance that follows from them, in place of a given one.
+    /// Whether these coefficients need the centre distance that follows from them, instead of a given one.
     pub moves_axes: bool,
 }
 
-/// How teeth inside a ring run into it beside their roots.
+/// How the teeth of a gear inside a ring interfere with the ring, other than at the roots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InternalInterference {
-    /// The ring's tip reaches below the base circle of the gear inside.
+    /// The ring's tip reaches below the base circle of the inner gear.
     Involute,
-    /// The tip corners run into each other after they have left contact.
+    /// The tip corners collide after they have left contact.
     Trochoid,
 }
 
@@ -24,7 +24,7 @@ pub enum InternalInterference {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
-    /// A value outside the range in which it has a meaning.
+    /// A value outside its valid range.
     #[error("{name} = {value} is out of range: {expected}")]
     OutOfRange {
         /// Name of the quantity.
@@ -34,28 +34,28 @@ pub enum GeometryError {
         /// The permitted range.
         expected: &'static str,
     },
-    /// The flanks meet below the tip circle.
+    /// The two flanks of a tooth meet below the tip circle.
     #[error(
         "the teeth are pointed: tip diameter {tip_diameter_mm:.3} mm, but the flanks meet at {pointed_diameter_mm:.3} mm"
     )]
     PointedTooth {
-        /// Tip diameter asked for, mm.
+        /// Tip diameter requested, mm.
         tip_diameter_mm: f64,
-        /// Diameter at which the tooth has no thickness left, mm.
+        /// Diameter at which the tooth thickness becomes zero, mm.
         pointed_diameter_mm: f64,
     },
-    /// Nothing is left of the tooth at the reference circle.
+    /// The tooth has no thickness left at the reference circle.
     #[error("the teeth have no thickness: {thickness_mm:.4} mm in the normal section at the reference circle")]
     Thickness {
-        /// Normal tooth thickness, mm; not positive.
+        /// Normal tooth thickness, mm; zero or negative.
         thickness_mm: f64,
     },
-    /// The rounding of the rack tip is wider than the rack's tooth.
+    /// The tip rounding of the rack is wider than the rack's tooth.
     #[error("root radius coefficient {coefficient} is too large: at most {largest:.4} fits the tooth space")]
     RootRadius {
-        /// Coefficient asked for.
+        /// Coefficient requested.
         coefficient: f64,
-        /// Largest that fits.
+        /// Largest coefficient that fits.
         largest: f64,
     },
     /// The bore reaches into the root circle.
@@ -66,17 +66,17 @@ pub enum GeometryError {
         /// Root diameter, mm.
         root_diameter_mm: f64,
     },
-    /// The two gears do not belong together.
+    /// The two gears cannot mesh with each other.
     #[error("pinion and wheel differ in {name}: {pinion} and {wheel}")]
     Mismatch {
-        /// The quantity that must agree.
+        /// The quantity that must be equal on both gears.
         name: &'static str,
         /// Pinion's value.
         pinion: f64,
         /// Wheel's value.
         wheel: f64,
     },
-    /// Base circles overlap.
+    /// The base circles overlap.
     #[error("centre distance {centre_distance_mm} mm is too small: the base circles need more than {least_mm:.4} mm")]
     CentreDistance {
         /// Centre distance, mm.
@@ -87,48 +87,48 @@ pub enum GeometryError {
     /// The teeth are too thick for the centre distance.
     #[error("the teeth jam: backlash along the line of action is {backlash_mm:.4} mm")]
     Jammed {
-        /// Transverse base backlash, mm; negative.
+        /// Transverse base backlash, mm; negative here.
         backlash_mm: f64,
-        /// Centre distance at which unthinned teeth of these profile shifts have no backlash, mm.
+        /// Centre distance at which unthinned teeth with these profile shifts have no backlash, mm.
         nominal_mm: f64,
-        /// Profile shift of the ring with the other sign, where the distance asks for it.
+        /// Profile shift of the ring with the opposite sign, if it fits the centre distance.
         ring_shift: Option<f64>,
     },
-    /// A tip reaches the other gear's root circle.
+    /// The tip of one gear reaches the root circle of the other.
     #[error("the {gear}'s tip runs into its mate's root circle: clearance {clearance_mm:.4} mm")]
     TipClearance {
-        /// Whose tip.
+        /// Gear whose tip it is.
         gear: &'static str,
-        /// Clearance, mm; negative.
+        /// Clearance, mm; negative here.
         clearance_mm: f64,
     },
-    /// A tip runs into the fillet of the other gear.
+    /// The tip of one gear cuts into the fillet of the other.
     #[error(
         "interference at the root: the {tip}'s tip enters the fillet of the {root} by {depth_mm:.4} mm; its teeth are involute \
          from diameter {form_diameter_mm:.3} mm only"
     )]
     Interference {
-        /// Whose tip.
+        /// Gear whose tip it is.
         tip: &'static str,
-        /// Whose fillet.
+        /// Gear whose fillet it is.
         root: &'static str,
         /// Largest depth along the arc in the transverse section, mm.
         depth_mm: f64,
-        /// Root form diameter of the gear whose fillet it is, mm.
+        /// Root form diameter of the gear whose fillet is cut, mm.
         form_diameter_mm: f64,
     },
-    /// A ring as gear 1, or in a ring.
+    /// A ring is given as gear 1, or runs inside a ring.
     #[error("the pinion is an internal gear: a ring is the wheel of its pair")]
     InternalPinion,
-    /// The tips of a ring and of the gear inside it run into each other away from the path of contact.
+    /// The tips of a ring and of the inner gear collide away from the path of contact.
     #[error(
         "trochoid interference: the tip corners of pinion and ring run into each other by {:.4} deg of the ring",
         -margin.to_degrees()
     )]
     Trochoid {
-        /// Angle of the ring by which the corners pass each other, rad; negative.
+        /// Angle of the ring by which the tip corners clear each other, rad; negative here.
         margin: f64,
-        /// Largest tip diameter of the pinion that has none, mm; none where no tip is short enough.
+        /// Largest tip diameter of the pinion without this interference, mm; `None` if no tip is short enough.
         pinion_tip_mm: Option<f64>,
     },
     /// The ring's tip reaches below the pinion's base circle or into its fillet.
@@ -139,16 +139,16 @@ pub enum GeometryError {
     Involute {
         /// Tip diameter of the ring, mm; negative.
         tip_diameter_mm: f64,
-        /// Path coordinate where the ring's tip touches, from the pinion's tangent point, mm.
+        /// Path coordinate at which the ring's tip touches, measured from the pinion's tangent point, mm.
         path_mm: f64,
-        /// Path coordinate where the pinion's involute starts, mm.
+        /// Path coordinate at which the pinion's involute starts, mm.
         form_mm: f64,
         /// Largest depth along the arc in the transverse section, mm.
         depth_mm: f64,
-        /// Tip diameter of the ring that reaches no further than the pinion's involute, mm; none where there is none.
+        /// Tip diameter of the ring at which its tip stays on the pinion's involute, mm; `None` if there is none.
         ring_tip_mm: Option<f64>,
     },
-    /// The shaper takes away the ring's tips.
+    /// The shaper cuts away the tips of the ring.
     #[error(
         "the shaper of {teeth} teeth interferes with the tips of the ring that it makes: {}", match kind {
             InternalInterference::Involute => format!("they reach {:.4} mm below its base circle along the line of action", -amount),
@@ -158,11 +158,11 @@ pub enum GeometryError {
     ShaperInterference {
         /// Kind of the interference.
         kind: InternalInterference,
-        /// mm along the line of action, or rad of the ring; negative.
+        /// Margin in mm along the line of action, or in rad of the ring; negative here.
         amount: f64,
-        /// Teeth of the shaper.
+        /// Number of teeth of the shaper.
         teeth: u32,
-        /// Nearest number of teeth without interference.
+        /// Nearest number of shaper teeth without interference.
         cure: Option<u32>,
     },
     /// The teeth do not reach each other.
@@ -170,43 +170,43 @@ pub enum GeometryError {
         "the pair has no path of contact: the tips reach {overlap_mm:.4} mm into each other along the line of action"
     )]
     NoContact {
-        /// Length of path of contact, mm; not positive.
+        /// Length of the path of contact, mm; zero or negative here.
         overlap_mm: f64,
     },
-    /// The gears pass each other along the axes.
+    /// The gears have no common face: they pass each other axially.
     #[error(
         "the faces do not overlap: the pinion's is from {:.4} to {:.4} mm, the wheel's from {:.4} to {:.4} mm over the \
          pinion's mid-face", pinion_mm[0], pinion_mm[1], wheel_mm[0], wheel_mm[1]
     )]
     FacesApart {
-        /// End faces of the pinion, mm over its mid-face.
+        /// End faces of the pinion, measured from its mid-face, mm.
         pinion_mm: [f64; 2],
-        /// Those of the wheel, mm over the pinion's mid-face.
+        /// End faces of the wheel, measured from the pinion's mid-face, mm.
         wheel_mm: [f64; 2],
     },
-    /// Not even one pair of teeth is in contact at every moment.
+    /// There are moments at which no pair of teeth is in contact.
     #[error("total contact ratio {contact_ratio:.4} is below 1: the teeth lose each other")]
     ContactRatio {
-        /// eps_gamma.
+        /// Total contact ratio eps_gamma.
         contact_ratio: f64,
-        /// The gear whose flank the rack undercuts; none where neither is.
+        /// The gear whose flank is undercut by its rack; `None` if neither is.
         undercut: Option<Undercut>,
     },
-    /// A place along the profile where there is no flank.
+    /// A place along the profile that lies off the flank.
     #[error("{name}: {value:.4} {unit} is not on the flank, which reaches from {low:.4} to {high:.4}")]
     OffFlank {
-        /// What was to be there.
+        /// Name of the feature that was placed there.
         name: &'static str,
-        /// Where it was to be.
+        /// Place that was requested.
         value: f64,
-        /// Unit of the three values.
+        /// Unit of the three values `value`, `low` and `high`.
         unit: &'static str,
-        /// Root form circle.
+        /// Value at the root form circle.
         low: f64,
-        /// Tip circle.
+        /// Value at the tip circle.
         high: f64,
     },
-    /// A topography that describes another flank.
+    /// A topography whose grid does not cover the flank.
     #[error("the topography covers less than half of the flank {direction}")]
     GridOffFlank {
         /// `along the profile` or `across the face`.
@@ -215,17 +215,17 @@ pub enum GeometryError {
     /// A topography of a tooth that the gear does not have.
     #[error("the topography has a tooth {tooth}, but the gear has teeth 0 to {}", teeth.saturating_sub(1))]
     NoSuchTooth {
-        /// The tooth.
+        /// Number of the tooth.
         tooth: u32,
-        /// Teeth of the gear.
+        /// Number of teeth of the gear.
         teeth: u32,
     },
-    /// A list of pitch errors of another gear.
+    /// A list of pitch errors whose length differs from the number of teeth.
     #[error("{given} pitch errors for {teeth} teeth")]
     PitchErrors {
-        /// Values given.
+        /// Number of values given.
         given: usize,
-        /// Teeth of the gear.
+        /// Number of teeth of the gear.
         teeth: u32,
     },
 }

@@ -1,4 +1,4 @@
-//! What sliding takes of a load that lies evenly on the contact lines.
+//! Tooth friction loss of a load that is spread evenly over the contact lines.
 
 use crate::{GearPair, Side};
 
@@ -11,21 +11,22 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 impl GearPair {
-    /// H_V, the mean loss over the power for a coefficient of friction of 1, of a load that lies evenly on all contact
-    /// lines.
+    /// Tooth loss factor H_V: power loss over power for a coefficient of friction of 1, with the load spread evenly
+    /// over all contact lines.
     ///
     /// ```text
     /// H_V = mean over a mesh cycle of [sum_k l_k v_k / L] / (r_b1 cos b_b),   L = sum_k l_k
     /// ```
-    /// l_k lengths of the contact lines, v_k their mean sliding for a radian of the pinion ([`GearPair::mean_sliding`]).
-    /// Between the angles at which an end of a line passes a corner of the plane of action or the pitch point the
-    /// integrand is smooth, and the quadrature exact to round-off. For a spur pair with eps_alpha 1 .. 2 it is H.
-    /// Ohlendorf's closed form (ISO/TR 14179-2),
+    /// l_k are the lengths of the contact lines, v_k their mean sliding per radian of the pinion
+    /// ([`GearPair::mean_sliding`]). The integrand is smooth between the angles at which an end of a line passes a
+    /// corner of the plane of action or the pitch point; there the quadrature is exact to round-off. For a spur pair
+    /// with eps_alpha 1 .. 2 the result equals H. Ohlendorf's closed form (ISO/TR 14179-2),
     ///
     /// ```text
     /// H_V = pi (1/z_1 + 1/z_2) / cos b_b (1 - eps_alpha + eps_1^2 + eps_2^2)
     /// ```
-    /// which is also written for helical pairs and there some tens of per cent off, for it lets whole teeth come and go.
+    /// This closed form is often used for helical pairs as well. There it is wrong by some tens of per cent, because it
+    /// lets whole teeth enter and leave contact at once.
     pub fn even_loss_factor(&self) -> f64 {
         let (side, base) = (Side::Left, self.pinion.base_radius());
         let pitch = self.pinion.pitch_angle();

@@ -48,39 +48,41 @@ impl Side {
 /// P(u, z) = r_b [e_r(phi) + s u e_t(phi)] + z e_z,   phi = c + k z + s (sigma - u)
 /// n(u, z) = s cos(b_b) [e_t(phi) - tan(b_b) e_z]     out of the tooth
 /// ```
-/// u roll angle, s = +1 left / -1 right, c the tooth's centre angle, k = tan(b)/r the twist, sigma the half tooth
-/// angle at the base circle. The surface is developable: straight along its generators, so one principal
-/// curvature is 0 and the other cos(b_b)/(r_b u), in the direction e_r.
+/// u is the roll angle, s = +1 for left and -1 for right, c the tooth's centre angle, k = tan(b)/r the twist, sigma the
+/// half tooth angle at the base circle. The surface is developable, with straight generators: one principal curvature
+/// is 0, the other is cos(b_b)/(r_b u) in the direction e_r.
 ///
-/// For an internal gear r_b is negative, sigma is that of z < 0, and c has half a turn more: the same formulas then give a concave flank, and left and right are as ISO 21771 names them, with the tooth pointing up, towards the axis.
+/// For an internal gear r_b is negative, sigma is that of z < 0, and c is half a revolution larger. The same formulas
+/// then give a concave flank. Left and right follow ISO 21771: seen with the tooth pointing up, which is towards the
+/// axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flank {
-    /// Which side of the tooth.
+    /// Side of the tooth.
     pub side: Side,
-    /// r_b, mm; negative of an internal gear.
+    /// Base radius r_b, mm; negative for an internal gear.
     pub base_radius: f64,
-    /// sigma, rad.
+    /// Half tooth angle at the base circle, sigma, rad.
     pub base_half_angle: f64,
-    /// k, rad/mm.
+    /// Twist k, rad/mm.
     pub twist: f64,
-    /// b_b, rad, with the sign of k r_b.
+    /// Base helix angle b_b, rad, with the sign of k r_b.
     pub base_helix_angle: f64,
-    /// c, rad.
+    /// Centre angle of the tooth, c, rad.
     pub centre_angle: f64,
     /// Roll angle at the root form circle.
     pub roll_form: f64,
     /// Roll angle at the tip circle.
     pub roll_tip: f64,
-    /// b/2, mm.
+    /// Half of the face width, b/2, mm.
     pub half_width: f64,
 }
 
-/// Foot point of a point in space on a flank.
+/// Foot point on a flank of a point in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankPoint {
-    /// Roll angle of the foot.
+    /// Roll angle of the foot point.
     pub roll: f64,
-    /// Axial position of the foot, mm.
+    /// Axial position of the foot point, mm.
     pub z: f64,
     /// Signed distance, mm; positive outside the tooth.
     pub distance: f64,
@@ -98,7 +100,7 @@ pub(crate) struct Directions {
 }
 
 impl Flank {
-    /// Direction angle phi of the base point that generates (u, z).
+    /// Direction angle phi of the base-circle point that generates (u, z).
     pub fn generating_angle(&self, u: f64, z: f64) -> f64 {
         self.centre_angle + self.twist * z + self.side.sign() * (self.base_half_angle - u)
     }
@@ -110,12 +112,12 @@ impl Flank {
         Vec3::new(self.base_radius * (cos - along * sin), self.base_radius * (sin + along * cos), z)
     }
 
-    /// Unit normal, out of the tooth.
+    /// Unit normal, pointing out of the tooth.
     pub fn normal(&self, u: f64, z: f64) -> Vec3 {
         self.frame(u, z)[0]
     }
 
-    /// Unit normal and unit direction of the profile, which the transverse plane holds, with one sine for both.
+    /// Unit normal and unit profile direction (in the transverse plane), computed from one sine and cosine.
     pub fn frame(&self, u: f64, z: f64) -> [Vec3; 2] {
         let frame = self.directions(u, z);
         [frame.normal, frame.profile]
@@ -144,7 +146,7 @@ impl Flank {
         Vec3::new(self.base_radius * (cos - along * sin), self.base_radius * (sin + along * cos), z)
     }
 
-    /// Surface point (mm) and its derivative by roll angle (mm), with one sine for both.
+    /// Surface point (mm) and its derivative by roll angle (mm), computed from one sine and cosine.
     pub fn point_and_profile(&self, u: f64, z: f64) -> [Vec3; 2] {
         let frame = self.directions(u, z);
         [self.point_at(u, z, &frame), self.base_radius * u * frame.profile]
@@ -156,8 +158,8 @@ impl Flank {
         [profile, Vec3::new(-self.twist * p.y, self.twist * p.x, 1.0)]
     }
 
-    /// Roll angles at the two ends of the flank, the smaller first. An external flank begins at its root form circle and
-    /// ends at its tip circle; an internal flank begins at its tip circle.
+    /// Roll angles at the two ends of the flank, the smaller first. An external flank runs from its root form circle to
+    /// its tip circle, an internal flank from its tip circle to its root form circle.
     pub fn roll_range(&self) -> [f64; 2] {
         [self.roll_form.min(self.roll_tip), self.roll_form.max(self.roll_tip)]
     }
@@ -167,21 +169,23 @@ impl Flank {
         [self.base_helix()[1] / (self.base_radius * u), 0.0]
     }
 
-    /// Foot point of `p` (mm, gear's own frame) on the unbounded helicoid of this tooth.
+    /// Foot point of `p` (mm, the gear's own frame) on the helicoid of this tooth, extended without bounds.
     ///
-    /// Every offset surface of an involute helicoid is the same helicoid turned, so the foot is found in closed form:
+    /// Every offset surface of an involute helicoid is the same helicoid rotated about the axis. So the foot point has
+    /// a closed form:
     /// ```text
     /// W = sqrt(R^2 - r_b^2),  phi = arg p - s atan(W / r_b)
     /// d = r_b cos(b_b) [s (phi - c - k z_p) - sigma + W / r_b]
     /// z = z_p + s d sin(b_b),  r_b u = W - d cos(b_b)
     /// ```
-    /// `None` below the base cylinder, where the involute has no normal; what lies below it by no more than a millionth of its
-    /// radius, the digits of a mesh file, counts as on it. Check `roll` and `z` against the bounds.
+    /// `None` below the base cylinder, where the involute has no normal. A point that lies below it by at most a
+    /// millionth of its radius (the precision of a mesh file) counts as on it. The caller compares `roll` and `z` with
+    /// the bounds of the flank.
     pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
         self.locate_with_directions(p).map(|(foot, _)| foot)
     }
 
-    /// The foot point of `p` as [`Flank::locate`] finds it, and the unit normal there.
+    /// Foot point of `p` as in [`Flank::locate`], and the unit normal there.
     pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
         self.locate_with_directions(p).map(|(foot, directions)| (foot, directions.normal))
     }

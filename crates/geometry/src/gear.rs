@@ -1,4 +1,4 @@
-//! One gear: derived quantities, flanks and section. Theory (1), (2), (3), (27).
+//! One gear: derived quantities, flanks and transverse section. Theory (1), (2), (3), (27).
 
 use std::{f64::consts::PI, sync::Arc};
 
@@ -8,7 +8,8 @@ use crate::error::InternalInterference;
 use crate::modification::{Depth, DepthField, FlankSize, GearModifications, ModifiedFlank};
 use crate::{Flank, GearData, GeometryError, Shaper, Side, TransverseProfile};
 
-/// One gear with everything ISO 21771 derives from its data. Number of teeth, diameters and pitch angle of an internal gear are negative, so that the formulas of the standard hold for both kinds.
+/// One gear with all quantities that ISO 21771 derives from its data. Number of teeth, diameters and pitch angle of an
+/// internal gear are negative, so the formulas of the standard hold for both kinds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gear {
     data: GearData,
@@ -36,10 +37,10 @@ impl FlankFields {
 }
 
 impl Gear {
-    /// A gear without modifications from its data.
+    /// Makes a gear without modifications from its data.
     ///
     /// # Errors
-    /// [`GeometryError`] when a value has no meaning, the teeth are pointed, the fillet or the bore does not fit.
+    /// [`GeometryError`] when a value is out of range, the teeth are pointed, or the fillet or the bore does not fit.
     pub fn new(data: GearData) -> Result<Self, GeometryError> {
         let positive = [
             ("normal module [mm]", data.normal_module),
@@ -77,12 +78,12 @@ impl Gear {
         Ok(gear)
     }
 
-    /// This gear with other micro-geometry. Everything derived from the data (diameters, contact ratios, thickness)
-    /// stays nominal.
+    /// This gear with other micro-geometry. All quantities derived from the data (diameters, contact ratios, thickness)
+    /// stay nominal.
     ///
     /// # Errors
-    /// [`GeometryError`] when an amount is no micro-geometry, a relief starts off the flank, a grid misses it, or the
-    /// pitch errors are not one a tooth.
+    /// [`GeometryError`] when an amount is not usable as micro-geometry, a relief starts off the flank, a grid does not
+    /// cover it, or there is not one pitch error per tooth.
     pub fn with_modifications(self, modifications: GearModifications) -> Result<Self, GeometryError> {
         let given = modifications.pitch_errors.len();
         if given != 0 && given != self.data.teeth as usize {
@@ -116,27 +117,27 @@ impl Gear {
         Ok(Self { modifications, fields, ..self })
     }
 
-    /// Micro-geometry.
+    /// Micro-geometry of the gear.
     pub fn modifications(&self) -> &GearModifications {
         &self.modifications
     }
 
-    /// Whether flanks on `side` are other than nominal.
+    /// Whether flanks on `side` differ from the nominal flank.
     pub fn is_modified(&self, side: Side) -> bool {
         !self.fields_on(side).fields.is_empty() || self.modifications.has_pitch_errors()
     }
 
-    /// Whether teeth differ from each other, by a pitch error or by what was measured on them.
+    /// Whether teeth differ from each other, by pitch errors or by measured flanks.
     pub fn has_own_teeth(&self) -> bool {
         self.modifications.has_pitch_errors() || self.has_own_flanks()
     }
 
-    /// Whether flanks of teeth have forms of their own.
+    /// Whether individual teeth have flank forms of their own.
     pub fn has_own_flanks(&self) -> bool {
         self.fields.iter().any(|f| f.fields.len() > 1)
     }
 
-    /// The gear with all teeth at their nominal places.
+    /// The gear with all teeth in their nominal positions.
     #[must_use]
     pub fn without_pitch_errors(&self) -> Self {
         let mut own = self.clone();
@@ -155,7 +156,7 @@ impl Gear {
         self.fields_on(side).of(tooth.rem_euclid(i64::from(self.data.teeth)) as usize)
     }
 
-    /// Depth by which the pitch error of `tooth` (any integer) sets its flank on `side` back, mm.
+    /// Depth by which the pitch error of `tooth` (any integer) moves its flank on `side` back, mm.
     ///
     /// ```text
     /// h = -s e cos(a_t) cos(b_b)     s = +1 left, -1 right; e arc on the reference circle, positive in the direction in which teeth are numbered
@@ -175,38 +176,38 @@ impl Gear {
         depth
     }
 
-    /// The flank of `tooth` (any integer) as it is made.
+    /// The flank of `tooth` (any integer) as manufactured.
     pub fn modified_flank(&self, side: Side, tooth: i64) -> ModifiedFlank {
         self.modified_flank_at(side, tooth, tooth)
     }
 
-    /// The flank of `tooth` at the place of tooth `place`: what a frame sees that is turned against the gear by whole
+    /// The flank of `tooth` in the position of tooth `place`, for a frame that is rotated against the gear by whole
     /// pitches.
     pub fn modified_flank_at(&self, side: Side, place: i64, tooth: i64) -> ModifiedFlank {
         ModifiedFlank::new(self.flank_of(side, place), self.field(side, tooth).cloned(), self.pitch_depth(side, tooth))
     }
 
-    /// What the gear was made from.
+    /// Data from which the gear was made.
     pub fn data(&self) -> &GearData {
         &self.data
     }
 
-    /// Number of teeth, without the sign of an internal gear.
+    /// Number of teeth, positive for an internal gear as well.
     pub fn teeth(&self) -> u32 {
         self.data.teeth
     }
 
-    /// Number of teeth z, negative of an internal gear.
+    /// Number of teeth z, negative for an internal gear.
     pub fn signed_teeth(&self) -> f64 {
         self.data.signed_teeth()
     }
 
-    /// Whether the teeth point inwards.
+    /// Whether the gear is internal (its teeth point inwards).
     pub fn is_internal(&self) -> bool {
         self.data.is_internal()
     }
 
-    /// +1 of an external gear, -1 of an internal one.
+    /// +1 for an external gear, -1 for an internal one.
     pub fn sign(&self) -> f64 {
         self.data.sign()
     }
@@ -251,7 +252,8 @@ impl Gear {
         self.profile.radius(self.profile.roll_form())
     }
 
-    /// Profile shift coefficient below which the rack's tip cuts away involute (undercut); none is too low for an internal gear.
+    /// Profile shift coefficient below which the rack's tip cuts away involute (undercut). An internal gear has no such
+    /// limit.
     ///
     /// ```text
     /// x_min = h_d* - rho* (1 - sin a_n) - z sin^2(a_t) / (2 cos b)        h_d*, rho* over the normal module
@@ -303,17 +305,18 @@ impl Gear {
         mesh.fault()
     }
 
-    /// Angle from a tooth to the next one, 2 pi / z, rad: teeth of an internal gear are numbered clockwise.
+    /// Angle from a tooth to the next one, 2 pi / z, rad; negative for an internal gear, whose teeth are numbered
+    /// clockwise.
     pub fn pitch_angle(&self) -> f64 {
         2.0 * PI / self.signed_teeth()
     }
 
-    /// Twist of the teeth along the axis, tan(beta)/r, rad/mm; positive for a right hand.
+    /// Twist of the teeth along the axis, tan(beta)/r, rad/mm; positive for a right-hand helix.
     pub fn twist(&self) -> f64 {
         self.data.helix_angle.tan() / self.reference_radius().abs()
     }
 
-    /// The transverse section of a tooth.
+    /// Transverse section of a tooth.
     pub fn profile(&self) -> &TransverseProfile {
         &self.profile
     }
@@ -341,7 +344,8 @@ impl Gear {
 }
 
 impl GearData {
-    /// This ring, made by the shaper that is taken where nothing is said: with a third of the ring's teeth, or as many more as it takes to make the ring's tips without interference.
+    /// This ring, cut by the default shaper: it has a third of the ring's teeth, or as many more as are needed to cut
+    /// the ring's tips without interference.
     #[must_use]
     pub fn with_usual_shaper(self, profile_shift: f64) -> Self {
         let of = |teeth: u32| GearData { shaper: Some(Shaper { teeth, profile_shift }), ..self.clone() };

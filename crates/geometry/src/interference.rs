@@ -1,4 +1,4 @@
-//! Whether a tip runs into the fillet of the other gear.
+//! Interference of a tip with the fillet of the other gear.
 
 use std::f64::consts::PI;
 
@@ -9,15 +9,15 @@ use crate::{Gear, GearPair};
 const SAMPLES: u32 = 240;
 
 impl GearPair {
-    /// Largest depth (mm, arc in the transverse section) to which the mate's tip edge enters a tooth of the pinion (0)
-    /// or the wheel (1), driving flanks touching along the line of action; 0: it passes free.
+    /// Largest depth (mm, along the arc in the transverse section) to which the mate's tip edge enters a tooth of the
+    /// pinion (0) or the wheel (1), with the driving flanks touching along the line of action. 0: no interference.
     ///
     /// ```text
     /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / |r_b,m|) ]
     ///                              s from the tip's contact onwards
     /// its tooth                    |angle - centre line| <= half angle at that radius, involute or fillet
     /// ```
-    /// From where it touches, the corner goes on towards the line of centres, deeper into the tooth space, and out
+    /// After the tip corner has touched, it moves on towards the line of centres, deeper into the tooth space, and out
     /// again.
     pub fn interference(&self, gear: usize) -> f64 {
         let (own, mate) = if gear == 0 { (&self.pinion, &self.wheel) } else { (&self.wheel, &self.pinion) };

@@ -1,4 +1,4 @@
-//! What the teeth of an external gear inside a ring must not run into, beside roots.
+//! Interference of an external gear inside a ring, other than at the roots.
 
 use serde::Serialize;
 
@@ -25,7 +25,8 @@ impl InternalMesh {
         [0, 1].map(|i| involute((self.base[i] / self.tip[i]).min(1.0).acos()))
     }
 
-    /// Path coordinate of the gear where the ring's tip touches, mm; below zero the ring's tip asks for involute below the gear's base circle.
+    /// Path coordinate of the inner gear at which the ring's tip touches, mm. Below zero the ring's tip needs involute
+    /// below the inner gear's base circle.
     ///
     /// ```text
     /// |d_b2| tan a_a2 / 2 - |a| sin a_wt >= 0        that is z_1/z_2 >= 1 - tan a_a2 / tan a_wt
@@ -35,7 +36,8 @@ impl InternalMesh {
             - self.distance * self.pressure_angle.sin()
     }
 
-    /// Interference that no assembly cures: its kind, and the margin that is below zero, mm of the path of contact or rad of the ring.
+    /// Interference that remains however the gears are assembled: its kind and its negative margin, in mm along the
+    /// path of contact or in rad of the ring.
     pub fn fault(&self) -> Option<(InternalInterference, f64)> {
         let (involute, trochoid) = (self.involute_margin(), self.trochoid_margin());
         if involute < 0.0 {
@@ -44,7 +46,8 @@ impl InternalMesh {
         (trochoid < 0.0).then_some((InternalInterference::Trochoid, trochoid))
     }
 
-    /// Angle of the ring (rad) by which the tip corners pass each other after they have left contact; below zero they run into each other (trochoid interference). Infinite where the tip circles do not cross.
+    /// Angle of the ring (rad) by which the tip corners clear each other after they have left contact. Below zero they
+    /// collide (trochoid interference). Infinite where the tip circles do not cross.
     ///
     /// ```text
     /// (z_1/z_2) t_1 + inv a_wt - inv a_a2 - t_2 >= 0
@@ -60,7 +63,8 @@ impl InternalMesh {
         (cosines[0].acos() + inv1 - inv) * z1 / z2 + inv - inv2 - cosines[1].acos()
     }
 
-    /// Angle of the gear (rad) by which its tip corners clear those of the ring when it is put in radially; below zero it can be put in along the axis only, and a shaper that is fed radially trims the ring's tips.
+    /// Angle of the inner gear (rad) by which its tip corners clear those of the ring during radial assembly. Below
+    /// zero the gear can be assembled only axially, and a shaper with radial feed trims the ring's tips.
     ///
     /// ```text
     /// T_1 + inv a_a1 - inv a_wt - (z_2/z_1)(T_2 + inv a_a2 - inv a_wt) >= 0

@@ -16,7 +16,8 @@ pub const TOLERANCE_CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
 /// f_fbT = (0.07 sqrt(d) + 0.45 sqrt(b) + 4) s    helix form
 /// s = sqrt(2)^(A - 5)
 /// ```
-/// d reference diameter, of an internal gear its magnitude, b face width, mm; A the class. As calculated: the standard rounds them for drawings.
+/// d is the reference diameter (its magnitude for an internal gear), b the face width, both in mm; A is the class. The
+/// values are not rounded; the standard rounds them for drawings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(missing_docs)] // the names say what they are
 pub struct FlankTolerances {
@@ -29,7 +30,7 @@ pub struct FlankTolerances {
 }
 
 impl FlankTolerances {
-    /// Tolerances of a gear in a class of [`TOLERANCE_CLASSES`].
+    /// Tolerances of a gear in one class of [`TOLERANCE_CLASSES`].
     pub fn new(gear: &Gear, class: u32) -> Self {
         let (d, b, m) = (2.0 * gear.reference_radius().abs(), gear.face_width(), gear.data().normal_module);
         let step = 2f64.sqrt().powi(class as i32 - 5);
@@ -43,7 +44,8 @@ impl FlankTolerances {
         }
     }
 
-    /// The tolerance that a key of a flank's modification deviates by; `None` for one that the standard knows nothing of.
+    /// Tolerance for the deviation of a flank modification, by its key; `None` if the standard has no tolerance for
+    /// this key.
     pub fn of_key(&self, key: &str) -> Option<f64> {
         match key.rsplit('.').next()? {
             "profile_slope_um" => Some(self.profile_slope_um),

@@ -1,13 +1,15 @@
-//! What shape is a gear pair, exactly?
+//! Exact geometry of a gear pair.
 //!
-//! Involute gears after ISO 21771, external ones and rings: spur and helical, either hand, profile shift, working centre
-//! distance, thinning and backlash, root fillet made by a rack or a shaper; flanks as exact surfaces; contact lines in the
-//! plane of action; micro-geometry. Lengths in mm, angles in rad.
+//! Involute gears after ISO 21771, external gears and rings: spur and helical, either hand, profile shift, working
+//! centre distance, tooth thinning and backlash, root fillets cut by a rack or a shaper. The crate gives flanks as
+//! exact surfaces, contact lines in the plane of action, and micro-geometry. Lengths are in mm, angles in rad.
 //!
 //! * A gear's own frame has its axis on +z, mid-face at z = 0 and the centre line of tooth 0 at mid-face on +x.
 //! * Teeth are numbered counter-clockwise seen from +z; the *left* flank is the counter-clockwise side of a tooth.
-//! * Signs of an internal gear are those of ISO 21771: z, all diameters and the centre distance are negative. Its teeth are numbered clockwise, and its left flank, seen with the tooth pointing up, is the clockwise side. So left flanks touch left flanks, and pinion tooth k wheel tooth -k, in pairs of both kinds.
-//! * Helix angle > 0: right hand.
+//! * An internal gear has the signs of ISO 21771: z, all diameters and the centre distance are negative. Its teeth are
+//!   numbered clockwise. Its left flank is the clockwise side, seen with the tooth pointing up. So in both kinds of
+//!   pair left flanks touch left flanks, and pinion tooth k meets wheel tooth -k.
+//! * A helix angle > 0 is right-handed.
 
 mod contact_lines;
 mod data;

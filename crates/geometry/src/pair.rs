@@ -15,17 +15,18 @@ const INTERFERENCE_MODULES: f64 = 1e-3;
 /// Profile shifts that are tried against undercut, in steps of a tenth.
 const MOST_TENTHS: i32 = 20;
 
-/// A running pair: pinion at the origin, wheel at (a, 0, o), o the offset of its mid-face; a is negative where the wheel is a ring, which has its axis on the other side of the contact.
+/// A running pair: the pinion is at the origin, the wheel at (a, 0, o), where o is the offset of its mid-face. a is
+/// negative if the wheel is a ring, because its axis then lies on the other side of the contact.
 ///
 /// ```text
 /// cos a_wt = (r_b1 + r_b2) / a
 /// z in [max(-b_1/2, o - b_2/2), min(b_1/2, o + b_2/2)]      common face, heights from the pinion's mid-face
 /// ```
-/// Flanks touch over the common face only. An offset moves the end faces of the wheel and not its teeth: it is the wheel
-/// without offset, made longer and cut to other end faces. Its own frame is at its own mid-face.
+/// Flanks touch only over the common face. An offset moves the end faces of the wheel, not its teeth: the wheel is the
+/// one without offset, extended and cut to other end faces. The origin of its own frame is at its own mid-face.
 ///
-/// The path of contact is measured by xi (mm) from the pinion's tangent point T1 along the transverse line of
-/// action; xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2, both sides of which are negative for a ring.
+/// The path of contact is measured by xi (mm) along the transverse line of action from the pinion's tangent point T1:
+/// xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2. Both sides of the second equation are negative for a ring.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearPair {
     /// Gear 1.
@@ -38,11 +39,11 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// A pair whose mid-faces are at one height, at the given centre distance (mm), or at the one without backlash from thinning
-    /// (`inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2)`).
+    /// A pair with both mid-faces at the same height. `centre_distance` is in mm; `None`: the distance at which the
+    /// only backlash is that from thinning (`inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2)`).
     ///
     /// # Errors
-    /// [`GeometryError`] when the gears do not belong together, jam, or do not reach each other.
+    /// [`GeometryError`] when the gears cannot mesh, jam, or do not reach each other.
     pub fn new(pinion: Gear, wheel: Gear, centre_distance: Option<f64>) -> Result<Self, GeometryError> {
         let (a, b) = (pinion.data(), wheel.data());
         if a.is_internal() {
@@ -76,8 +77,8 @@ impl GearPair {
     /// This pair with the wheel's mid-face `offset` (mm) above the pinion's, along +z.
     ///
     /// # Errors
-    /// [`GeometryError::FacesApart`] where the faces do not overlap, [`GeometryError::ContactRatio`] where they do so by
-    /// too little, [`GeometryError::OutOfRange`] for an offset that is no number.
+    /// [`GeometryError::FacesApart`] if the faces do not overlap, [`GeometryError::ContactRatio`] if they overlap too
+    /// little, [`GeometryError::OutOfRange`] for an offset that is not a finite number.
     pub fn with_mid_face_offset(self, offset: f64) -> Result<Self, GeometryError> {
         if !offset.is_finite() {
             let (name, expected) = ("offset of the mid-faces [mm]", "a finite number");
@@ -145,21 +146,21 @@ impl GearPair {
         Ok(())
     }
 
-    /// The pair with all teeth at their nominal places.
+    /// The pair with all teeth in their nominal positions.
     #[must_use]
     pub fn without_pitch_errors(&self) -> Self {
         let (pinion, wheel) = (self.pinion.without_pitch_errors(), self.wheel.without_pitch_errors());
         Self { pinion, wheel, ..self.clone() }
     }
 
-    /// How much nearer pitch errors bring the flanks of both gears on a side, mm along the normal: tooth by tooth in the
-    /// order in which they come, an empty list for a gear without errors.
+    /// Distance by which pitch errors bring the flanks of each gear closer on one side, mm along the normal. One value
+    /// per tooth in the order in which the teeth come into mesh; an empty list for a gear without errors.
     ///
     /// ```text
     /// e(m) = e_1[m mod z_1] + e_2[-m mod z_2],   e_g[i] = -h(tooth -s i)
     /// ```
-    /// m: pairs of teeth as they come, 0 the pair of tooth 0 of both gears; h: [`Gear::pitch_depth`]; s = +1 where the
-    /// pinion turns counter-clockwise, -1 clockwise.
+    /// m counts the pairs of teeth as they come into mesh, 0 being the pair of tooth 0 of both gears; h is
+    /// [`Gear::pitch_depth`]; s = +1 if the pinion rotates counter-clockwise, -1 if clockwise.
     pub fn pitch_approaches(&self, side: Side, sense: Sense) -> [Vec<f64>; 2] {
         [&self.pinion, &self.wheel].map(|gear| {
             let teeth = i64::from(if gear.modifications().has_pitch_errors() { gear.teeth() } else { 0 });
@@ -172,7 +173,9 @@ impl GearPair {
         self.wheel.is_internal()
     }
 
-    /// Profile shift coefficient of the ring with the other sign, where teeth of full thickness fit the centre distance with it ten times better than with its own, which is off by more than m_n/20: conventions with z_2 > 0 have minus ISO 21771's. `None` of other pairs and of external ones.
+    /// Profile shift coefficient of the ring with the opposite sign, if teeth of full thickness then fit the centre
+    /// distance ten times better than with the given sign, which is off by more than m_n/20. Some conventions use z_2 >
+    /// 0 and have the opposite sign of ISO 21771. `None` for other rings and for external pairs.
     pub fn ring_shift_of_other_sign(&self) -> Option<f64> {
         let [x1, x2] = [&self.pinion, &self.wheel].map(|gear| gear.data().profile_shift);
         let off = |x2: f64| (self.centre_distance - distance_of_shifts(&self.pinion, &self.wheel, x1 + x2)).abs();
@@ -191,12 +194,15 @@ impl GearPair {
         })
     }
 
-    /// Angle of the ring (rad) by which the tip corners pass each other after they have left contact, flanks without backlash; below zero they run into each other, which [`GearPair::new`] refuses. Infinite where the tip circles do not cross; `None` of external gears.
+    /// Angle of the ring (rad) by which the tip corners clear each other after they have left contact, for flanks
+    /// without backlash. Below zero they collide, and [`GearPair::new`] returns an error. Infinite where the tip
+    /// circles do not cross; `None` for external pairs.
     pub fn trochoid_margin(&self) -> Option<f64> {
         self.internal_mesh().map(|mesh| mesh.trochoid_margin())
     }
 
-    /// Angle of the pinion (rad) by which it clears the ring's tip corners when it is put in radially; below zero it can be put in along the axis only; `None` of external gears.
+    /// Angle of the pinion (rad) by which it clears the ring's tip corners during radial assembly. Below zero it can be
+    /// assembled only axially. `None` for external pairs.
     pub fn trimming_margin(&self) -> Option<f64> {
         self.internal_mesh().map(|mesh| mesh.trimming_margin())
     }
@@ -290,7 +296,7 @@ impl GearPair {
         Some(Undercut { gear: ["pinion", "wheel"][own], cure: kept.or(moved), moves_axes })
     }
 
-    /// Working centre distance a, mm; negative where the wheel is a ring.
+    /// Working centre distance a, mm; negative if the wheel is a ring.
     pub fn centre_distance(&self) -> f64 {
         self.centre_distance
     }
@@ -300,7 +306,7 @@ impl GearPair {
         ((self.pinion.base_radius() + self.wheel.base_radius()) / self.centre_distance).acos()
     }
 
-    /// Working pitch radii r_w1, r_w2, mm; that of a ring is negative.
+    /// Working pitch radii r_w1, r_w2, mm; negative for a ring.
     pub fn working_radii(&self) -> [f64; 2] {
         let cos = self.working_pressure_angle().cos();
         [self.pinion.base_radius() / cos, self.wheel.base_radius() / cos]
@@ -311,24 +317,25 @@ impl GearPair {
         self.pinion.base_helix_angle()
     }
 
-    /// Height of the wheel's mid-face over the pinion's, along +z, mm.
+    /// Height of the wheel's mid-face above the pinion's, along +z, mm.
     pub fn mid_face_offset(&self) -> f64 {
         self.mid_face_offset
     }
 
-    /// Heights of the end faces of pinion and wheel over the pinion's mid-face, mm.
+    /// Heights of the end faces of pinion and wheel above the pinion's mid-face, mm.
     pub fn faces(&self) -> [[f64; 2]; 2] {
         let of = |middle: f64, width: f64| [middle - 0.5 * width, middle + 0.5 * width];
         [of(0.0, self.pinion.face_width()), of(self.mid_face_offset, self.wheel.face_width())]
     }
 
-    /// Heights over the pinion's mid-face between which both gears have flanks, mm.
+    /// Range of heights, measured from the pinion's mid-face, in which both gears have flanks, mm.
     pub fn common_face(&self) -> [f64; 2] {
         let [[p0, p1], [w0, w1]] = self.faces();
         [p0.max(w0), p1.min(w1)]
     }
 
-    /// Middle of the common face over the mid-faces of pinion and wheel, mm; 0 where both mid-faces are in it.
+    /// Height of the middle of the common face above the mid-face of the pinion and of the wheel, mm; 0 if the common
+    /// face contains both mid-faces.
     pub fn common_middle(&self) -> [f64; 2] {
         let [from, to] = self.common_face();
         let middle = 0.5 * (from + to);
@@ -346,13 +353,14 @@ impl GearPair {
         self.pinion.transverse_base_pitch()
     }
 
-    /// Path coordinate of the wheel's tangent point T2, a sin(a_wt), mm; negative of a ring, whose tangent point lies before that of the pinion.
+    /// Path coordinate of the wheel's tangent point T2, a sin(a_wt), mm. Negative for a ring, whose tangent point lies
+    /// before that of the pinion.
     pub fn tangent_length(&self) -> f64 {
         self.centre_distance * self.working_pressure_angle().sin()
     }
 
-    /// Path of contact [xi_A, xi_E], mm from T1: bounded by the tips, and by each gear's root form circle
-    /// where that reaches higher.
+    /// Path of contact [xi_A, xi_E], mm from T1. It is bounded by the tips, or by a gear's root form circle where that
+    /// is the tighter limit.
     pub fn path_of_contact(&self) -> [f64; 2] {
         let length = self.tangent_length();
         let (p, w) = (self.pinion.profile(), self.wheel.profile());
@@ -383,7 +391,7 @@ impl GearPair {
         self.transverse_contact_ratio() + self.overlap_ratio()
     }
 
-    /// Backlash between the coast flanks along the transverse line of action, mm, the drive flanks touching.
+    /// Backlash between the coast flanks along the transverse line of action, mm, while the drive flanks touch.
     pub fn backlash(&self) -> f64 {
         let a_wt = self.working_pressure_angle();
         let inv = crate::involute(a_wt);
@@ -392,15 +400,15 @@ impl GearPair {
         (pitch - thickness(&self.pinion) - thickness(&self.wheel)) * a_wt.cos()
     }
 
-    /// Path coordinate xi (mm) of pinion tooth `tooth` at height `z` (mm, over the pinion's mid-face) when the pinion stands at angle
-    /// `pinion_angle` [rad, counter-clockwise] and the flanks on `side` are in contact.
+    /// Path coordinate xi (mm) of pinion tooth `tooth` at height `z` (mm above the pinion's mid-face), when the pinion
+    /// is at angle `pinion_angle` [rad, counter-clockwise] and the flanks on `side` are in contact.
     ///
     /// xi = r_b1 [s (theta_1 + 2 pi k / z1 + k_1 z) + sigma_1 + a_wt]
     pub fn path_coordinate(&self, side: Side, pinion_angle: f64, tooth: i64, z: f64) -> f64 {
         self.path_coordinates(side, pinion_angle)(tooth, z)
     }
 
-    /// [`Self::path_coordinate`] of any tooth and height, with its constants found once.
+    /// [`Self::path_coordinate`] as a function of tooth and height, with its constants computed once.
     pub fn path_coordinates(&self, side: Side, pinion_angle: f64) -> impl Fn(i64, f64) -> f64 {
         let p = &self.pinion;
         let (pitch, twist, base, sign) = (p.pitch_angle(), p.twist(), p.base_radius(), side.sign());
@@ -408,7 +416,7 @@ impl GearPair {
         move |tooth, z| base * (sign * (pinion_angle + tooth as f64 * pitch + twist * z) + half + a_wt)
     }
 
-    /// Pinion angle (rad) at which pinion tooth 0 stands, in the middle of the common face, in the middle of the path of
+    /// Pinion angle (rad) at which pinion tooth 0, in the middle of the common face, is in the middle of the path of
     /// contact.
     pub fn middle_angle(&self, side: Side) -> f64 {
         let [start, end] = self.path_of_contact();
@@ -418,19 +426,20 @@ impl GearPair {
         at_mid_face - p.twist() * self.common_middle()[0]
     }
 
-    /// Wheel angle (rad) at which its tooth 0 (own frame turned by this angle) touches pinion tooth 0 on flanks
-    /// `side`, both unloaded; pinion tooth k then touches wheel tooth -k.
+    /// Wheel angle (rad) at which wheel tooth 0 (own frame rotated by this angle) touches pinion tooth 0 on flanks
+    /// `side`, both unloaded. Pinion tooth k then touches wheel tooth -k.
     ///
     /// ```text
     /// s (theta_2 - k_2 o - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)
     /// ```
-    /// o: offset of the mid-faces, k_2: twist of the wheel's teeth. Both angles are of tooth 0 at its own mid-face; for a ring, whose tooth 0 is on +x as that of any gear, pi falls away.
+    /// o is the offset of the mid-faces, k_2 the twist of the wheel's teeth. Both angles refer to tooth 0 at its own
+    /// mid-face. For a ring the term pi is omitted, because tooth 0 of a ring is on +x like that of any gear.
     pub fn wheel_angle(&self, side: Side, pinion_angle: f64) -> f64 {
         self.wheel_angle_at(side, pinion_angle, [self.centre_distance, 0.0])
     }
 
-    /// [`Self::wheel_angle`] with the wheel's centre at `centre` (mm, from the pinion's), axes parallel: the formula
-    /// with the distance that is there, both angles counted from the line of centres. NaN where the base circles
+    /// [`Self::wheel_angle`] with the wheel's centre at `centre` (mm, from the pinion's) and parallel axes: the same
+    /// formula with the actual distance, both angles measured from the line of centres. NaN where the base circles
     /// overlap.
     pub fn wheel_angle_at(&self, side: Side, pinion_angle: f64, centre: [f64; 2]) -> f64 {
         let (rb1, rb2) = (self.pinion.base_radius(), self.wheel.base_radius());

@@ -1,4 +1,4 @@
-//! Transverse section of one tooth: involute, fillet as the tool's tip makes it, root land.
+//! Transverse section of one tooth: involute, fillet as cut by the tool's tip, root land.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,9 +11,11 @@ use crate::{GearData, GeometryError, involute};
 
 /// Half of the transverse tooth section, from the tip down to the middle of the tooth space.
 ///
-/// All angles are measured from the tooth's centre line; the other half is the mirror image. Radii, angles and half pitch of an internal gear are negative: (r cos angle, r sin angle) is then the section of a tooth on the side of -x.
-/// Source: ISO 21771; the fillet is the envelope of the rounding of the tool's tip: of a rack, a circle in the normal section and
-/// so an ellipse (stretched by 1/cos beta) in the transverse one; of a shaper, a circle in the transverse section.
+/// All angles are measured from the tooth's centre line; the other half is the mirror image. Radii, angles and half
+/// pitch of an internal gear are negative: (r cos angle, r sin angle) is then the section of a tooth on the side of -x.
+/// Source: ISO 21771. The fillet is the envelope of the rounding of the tool's tip. The rounding of a rack is a circle
+/// in the normal section, hence an ellipse (stretched by 1/cos beta) in the transverse one; that of a shaper is a
+/// circle in the transverse section.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TransverseProfile {
     base_radius: f64,
@@ -232,14 +234,14 @@ impl TransverseProfile {
         (r, self.half_pitch - space)
     }
 
-    /// Angle (rad) between the fillet's tangent at `t` and the tooth's centre line; falls from nearly pi/2 at the root
-    /// land.
+    /// Angle (rad) between the fillet's tangent at `t` and the tooth's centre line; it decreases from nearly pi/2 at
+    /// the root land.
     pub fn fillet_tangent(&self, t: f64) -> f64 {
         self.tool.tangent(t * self.fillet_end, self.reference_radius) - self.half_pitch
     }
 
-    /// Where on the fillet, 0 .. 1, the tangent makes `angle` (rad) with the tooth's centre line; 1 when it is steeper
-    /// everywhere.
+    /// Parameter on the fillet, 0 .. 1, at which the tangent makes `angle` (rad) with the tooth's centre line; 1 if the
+    /// tangent angle is larger everywhere.
     pub fn fillet_at_tangent(&self, angle: f64) -> f64 {
         if self.fillet_tangent(1.0) >= angle { 1.0 } else { bisect(0.0, 1.0, |t| self.fillet_tangent(t) - angle) }
     }
@@ -251,13 +253,14 @@ impl TransverseProfile {
 }
 
 impl GearData {
-    /// Largest coefficient rho / m_n of tip rounding that the tool has room for: a full rounding of its tip.
+    /// Largest coefficient rho / m_n of tip rounding that fits the tool: the value at which its tip is fully rounded.
     ///
     /// For a rack:
     /// ```text
     /// rho_fP/m_n = [pi/4 + A_s/(2 m_n) - (h_fP/m_n) tan a_n] cos a_n / (1 - sin a_n)
     /// ```
-    /// A_s is the thinning. Zero or below where the rack ends in a point above h_fP. Of a shaper: where its rounding meets that of the other side, by bisection; 0 where the cutter cannot make the gear.
+    /// A_s is the thinning. The result is zero or negative where the rack ends in a point above h_fP. For a shaper it
+    /// is the rounding at which both sides meet, found by bisection; 0 if the cutter cannot generate the gear.
     pub fn largest_root_radius_coefficient(&self) -> f64 {
         if let Some(shaper) = self.shaper {
             return Cutter::new(self, shaper).map_or(0.0, |cutter| cutter.largest_rounding());

@@ -1,4 +1,4 @@
-//! Roots of functions of one number.
+//! Roots of functions of one variable.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,16 +1,16 @@
-//! Which gear drives, which way the pair turns, and which flanks carry the load then.
+//! Which gear drives, the sense of rotation, and the flanks that then carry the load.
 
 use serde::{Deserialize, Serialize};
 
 use crate::Side;
 
-/// Sense in which the pinion turns, seen from +z.
+/// Sense of rotation of the pinion, seen from +z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sense {
-    /// Counter-clockwise: pair numbers fall as new pairs come in.
+    /// Counter-clockwise: the number of the pair in mesh decreases with time.
     Ccw,
-    /// Clockwise: pair numbers rise.
+    /// Clockwise: the number of the pair in mesh increases with time.
     Cw,
 }
 
@@ -23,7 +23,7 @@ impl Sense {
         }
     }
 
-    /// The other way round.
+    /// The opposite sense.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {
@@ -44,7 +44,7 @@ pub enum Driver {
 }
 
 impl Driver {
-    /// The gear that is driven.
+    /// The other gear.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {
@@ -53,7 +53,7 @@ impl Driver {
         }
     }
 
-    /// Index of the driven gear: 0 pinion, 1 wheel.
+    /// Index of the driven gear: 0 for the pinion, 1 for the wheel.
     pub fn driven(self) -> usize {
         match self {
             Self::Pinion => 1,
@@ -61,7 +61,7 @@ impl Driver {
         }
     }
 
-    /// The pinion's flanks that carry the load: the leading ones when it drives, the trailing ones when it is driven.
+    /// The pinion flanks that carry the load: the leading ones if the pinion drives, the trailing ones if it is driven.
     pub fn loaded_side(self, sense: Sense) -> Side {
         match (self, sense) {
             (Self::Pinion, Sense::Ccw) | (Self::Wheel, Sense::Cw) => Side::Left,

@@ -1,4 +1,4 @@
-//! The numbers of a pair that drawings and standards ask for. Terms and formulas of ISO 21771-1.
+//! The quantities of a pair that drawings and standards ask for. Terms and formulas of ISO 21771-1.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::{Gear, GearPair, profile::roll_angle, roots::inverse_involute};
 
 described::described! {
-    /// Everything that a geometry sheet says of a pair; units are in the names.
+    /// All quantities of the geometry sheet of a pair; units are in the names.
     #[derive(Debug, Clone, PartialEq, Serialize)]
     pub struct GeometrySheet {
         /// normal module
@@ -71,7 +71,8 @@ described::described! {
 }
 
 described::described! {
-    /// Numbers of a pair whose wheel is a ring, beside those with the signs of ISO 21771: magnitudes as on a drawing, margins about the tips, tool.
+    /// Additional quantities of a pair whose wheel is a ring: magnitudes as on a drawing, tip interference margins,
+    /// tool data.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
     pub struct RingSheet {
         /// magnitude of the centre distance
@@ -284,7 +285,7 @@ impl GearPair {
         }
     }
 
-    /// What a drawing of a ring asks for beside what all gears have; `None` of external pairs.
+    /// Quantities that a drawing of a ring needs in addition; `None` for external pairs.
     pub fn ring_sheet(&self) -> Option<RingSheet> {
         let (ring, cutter) = (&self.wheel, self.wheel.profile().cutter()?);
         let degrees = |margin: f64| margin.is_finite().then(|| margin.to_degrees());

@@ -1,4 +1,4 @@
-//! Eigenvalues of what motions and steps multiply disturbances by.
+//! Eigenvalues of the matrices that propagate disturbances in motions and steps.
 
 use nalgebra::{Complex, DMatrix, DVector, Schur, linalg::balancing::balance_parlett_reinsch};
 
@@ -7,7 +7,8 @@ const ITERATIONS: usize = 10_000;
 /// What counts as zero beside its neighbours, at first and where the search does not end with that.
 const ROUND_OFF: [f64; 2] = [f64::EPSILON, 1e3 * f64::EPSILON];
 
-/// Eigenvalues of a real square matrix, in no order; `None` where it holds no numbers, or where they are not found.
+/// Eigenvalues of a real square matrix, unordered; `None` if the matrix has entries that are not finite, or if the
+/// iteration does not converge.
 pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<DVector<Complex<f64>>> {
     if matrix.iter().any(|x| !x.is_finite()) {
         return None;

@@ -1,10 +1,10 @@
-//! Why a motion could not go on.
+//! Errors of a motion.
 
-/// A motion could not go on.
+/// A motion cannot continue.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError<E> {
-    /// The system's own trouble.
+    /// Error of the mechanism itself.
     #[error("at {time:.9} s: {source}")]
     Mechanism {
         /// Time, s.
@@ -12,7 +12,7 @@ pub enum MotionError<E> {
         /// Error of the mechanism.
         source: E,
     },
-    /// Newton's method did not settle within a step.
+    /// Newton's method did not converge within a step.
     #[error(
         "at {time:.9} s, step {step:.3e} s: no solution after {iterations} iterations, the last change {change:.3e} of the motion's scale"
     )]
@@ -21,70 +21,70 @@ pub enum MotionError<E> {
         time: f64,
         /// Step, s.
         step: f64,
-        /// Iterations.
+        /// Number of iterations.
         iterations: usize,
-        /// Last change, relative.
+        /// Last relative change.
         change: f64,
     },
-    /// The error control asked for a step below the least one.
+    /// The error control requires a step below the least permitted one.
     #[error("at {time:.9} s: a step of {step:.3e} s is needed for the tolerance, the least allowed is {least:.3e} s")]
     StepTooSmall {
         /// Time, s.
         time: f64,
-        /// Step asked for, s.
+        /// Step required, s.
         step: f64,
-        /// Least step, s.
+        /// Least permitted step, s.
         least: f64,
     },
-    /// The error control goes on, in steps that are far shorter than what the motion is asked for.
+    /// The error control continues with steps that are far shorter than the motion requires.
     #[error(
         "at {time:.9} s: {steps} steps of {step:.3e} s in the mean bring the motion hardly on: rows ask for steps of {largest:.3e} s"
     )]
     Crawls {
         /// Time, s.
         time: f64,
-        /// Steps since the last row.
+        /// Number of steps since the last row.
         steps: u64,
-        /// Their mean length, s.
+        /// Mean length of these steps, s.
         step: f64,
-        /// Largest step allowed, s.
+        /// Largest permitted step, s.
         largest: f64,
     },
-    /// An explicit method is far from stable with steps of given length.
+    /// An explicit method is far from stable with steps of the given length.
     #[error(
         "at {time:.9} s: the explicit method is stable with steps of up to {longest:.3e} s here, a step is {step:.3e} s"
     )]
     Unstable {
         /// Time, s.
         time: f64,
-        /// Step, s.
+        /// Step length, s.
         step: f64,
         /// Longest stable step, s.
         longest: f64,
     },
-    /// A matrix that must be regular is not.
+    /// A matrix that must be regular is singular.
     #[error("at {time:.9} s: the {which} matrix is singular")]
     Singular {
         /// Time, s.
         time: f64,
-        /// Which.
+        /// Name of the matrix.
         which: &'static str,
     },
-    /// Mass, scale and state are of different lengths.
+    /// Mass matrix, scale and state have different lengths.
     #[error(
         "mass, scale and state are of different lengths: {mass}, {scale}, and {coordinates} coordinates with {velocities} velocities"
     )]
     Lengths {
-        /// Rows of the mass matrix.
+        /// Number of rows of the mass matrix.
         mass: usize,
-        /// Entries of the scale.
+        /// Number of entries of the scale.
         scale: usize,
-        /// Coordinates of the state.
+        /// Number of coordinates of the state.
         coordinates: usize,
-        /// Velocities of the state.
+        /// Number of velocities of the state.
         velocities: usize,
     },
-    /// A step, a tolerance, a scale or a count that must be positive is not.
+    /// A step, tolerance, scale or count is not positive.
     #[error("{name} = {value} must be positive")]
     NotPositive {
         /// Name of the quantity.
@@ -92,26 +92,26 @@ pub enum MotionError<E> {
         /// Value of the quantity.
         value: f64,
     },
-    /// The motion comes to a stop before a cycle is over.
+    /// The motion stops before the end of a cycle.
     #[error("the rotation stops before cycle {cycle} is complete")]
     StandsStill {
         /// Cycle, counted from the start of the motion.
         cycle: u64,
     },
-    /// A checkpoint of a motion with another number of coordinates.
+    /// A checkpoint has another number of coordinates than the motion.
     #[error(
         "the checkpoint belongs to a motion with other free coordinates: it has {checkpoint}, this motion has {motion}"
     )]
     OtherCoordinates {
-        /// Coordinates of the checkpoint.
+        /// Number of coordinates in the checkpoint.
         checkpoint: usize,
-        /// Coordinates of the motion.
+        /// Number of coordinates of the motion.
         motion: usize,
     },
-    /// A spectral radius that generalised-alpha cannot have.
+    /// A spectral radius outside the range of generalised-alpha.
     #[error("the spectral radius of generalised-alpha lies between 0 and 1, not at {rho}")]
     SpectralRadius {
-        /// The radius asked for.
+        /// The radius given.
         rho: f64,
     },
 }

@@ -1,24 +1,24 @@
-//! Events within a step: where a function of the motion changes its sign.
+//! Events within a step: sign changes of functions of the motion.
 
 use nalgebra::DVector;
 
 use crate::{Mechanism, MotionError, State};
 
-/// Which way an event function went through zero.
+/// Direction in which an event function crossed zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
-    /// Zero crossing from below.
+    /// Upwards, from below zero.
     Up,
-    /// Zero crossing from above.
+    /// Downwards, from above zero.
     Down,
 }
 
 /// A located event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Number of the event function.
+    /// Index of the event function.
     pub event: usize,
-    /// When, s.
+    /// Time of the event, s.
     pub time: f64,
     /// Direction of the crossing.
     pub direction: Direction,

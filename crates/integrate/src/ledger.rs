@@ -1,4 +1,4 @@
-//! Ledger of energy: what is stored, supplied and dissipated.
+//! Energy ledger: stored, supplied and dissipated energy.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -8,30 +8,31 @@ use serde::{Deserialize, Serialize};
 /// ```text
 /// kinetic + potential - initial = supplied + parametric - dissipated + residual
 /// ```
-/// Whatever an integrator adds or takes by itself is the residual. What it does in each step is summed up beside it by its
-/// amount, and so is the energy that comes and goes: a residual that swings to and fro is small at no time by chance, and
-/// the energy of a vibration does not grow with its duration, as work does.
+/// The residual is the energy that an integrator adds or removes numerically. The absolute change of the residual in
+/// each step is summed as well, and so is the energy exchanged. So an oscillating residual does not appear small by
+/// chance, and the reference does not grow with the duration, as work does.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
-    /// v' M v / 2.
+    /// Kinetic energy v' M v / 2.
     pub kinetic: f64,
-    /// V.
+    /// Potential energy V.
     pub potential: f64,
     /// Kinetic and potential energy at the start.
     pub initial: f64,
     /// Work of drives and loads.
     pub supplied: f64,
-    /// Work that changes of V with time alone have done: a stiffness that varies under load.
+    /// Work of explicit changes of V with time, such as a stiffness that varies under load.
     pub parametric: f64,
-    /// Work that dampers and friction took.
+    /// Work dissipated by dampers and friction.
     pub dissipated: f64,
     /// Sum of the absolute amounts of all work so far.
     pub turnover: f64,
-    /// Sum of the absolute changes of kinetic and of potential energy from step to step: what vibrates.
+    /// Sum of the absolute changes of kinetic and of potential energy from step to step: the energy exchanged by the
+    /// vibration.
     pub exchanged: f64,
     /// Sum of the absolute changes of the residual from step to step.
     pub open: f64,
-    /// Part of the energies' amounts that is their round-off, summed over the steps.
+    /// Round-off of the energies, summed over the steps.
     pub round_off: f64,
 }
 
@@ -46,19 +47,19 @@ impl Ledger {
         Self { kinetic, potential, initial: kinetic + potential, ..Self::default() }
     }
 
-    /// Residual of the ledger: energy that is not accounted for.
+    /// Residual of the ledger: energy without a source.
     pub fn residual(&self) -> f64 {
         self.kinetic + self.potential - self.initial - self.supplied - self.parametric + self.dissipated
     }
 
-    /// Residual of the ledger over all the work done.
+    /// Residual of the ledger, divided by all the work done.
     pub fn relative_residual(&self) -> f64 {
         over(self.residual(), self.turnover.max(self.initial.abs()))
     }
 
-    /// Energy that steps add or take by themselves, over the kinetic and potential energy that comes and goes in them:
-    /// 0 of a ledger that closes in every step, about a half where half of the work of a vibration is not booked. NaN
-    /// where an entry is none.
+    /// Energy that the steps add or remove numerically, divided by the kinetic and potential energy exchanged in them.
+    /// It is 0 for a ledger that closes in every step, and about a half if half of the work of a vibration is missing.
+    /// NaN if an entry is NaN.
     ///
     /// ```text
     /// sum |d residual| / sum (|d kinetic| + |d potential|)

@@ -1,11 +1,12 @@
-//! How does any mechanism move, settle, and go on from a stored state? Systems with a constant mass matrix; no gear in it.
+//! Time integration of mechanical systems with a constant mass matrix: motion, settling to a steady state, restart. The
+//! crate contains no gear physics.
 //!
 //! ```text
 //! M q'' = f(t, q, q')
 //! ```
-//! All mechanisms share the integrators and the [`Course`] of cycles, rows, events and checkpoints: the meshed pair,
-//! the gearbox, the lumped models, a one-degree oscillator. What is shown for one holds for all. New physics brings a
-//! [`Mechanism`], never a loop.
+//! All mechanisms share the integrators and the [`Course`] of cycles, rows, events and checkpoints: the gear pair, the
+//! gearbox, the lumped models, an oscillator with one degree of freedom. A property that is shown for one of them holds
+//! for all. New physics is a new [`Mechanism`], never a new time loop.
 
 mod course;
 mod eigenvalues;

@@ -1,4 +1,4 @@
-//! Factor of a matrix of few rows, in its own memory.
+//! LU factor of a small matrix, in its own memory.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,12 +12,12 @@ pub(crate) struct LuFactor {
 }
 
 impl LuFactor {
-    /// Room for `n` rows.
+    /// Allocates memory for `n` rows.
     pub fn new(n: usize) -> Self {
         Self { matrix: DMatrix::zeros(n, n), exchanged: (0..n).collect() }
     }
 
-    /// Factors what `fill` makes of the matrix, n x n; what was in it before is the last factor.
+    /// Factors the n x n matrix that `fill` writes. Before the call of `fill` the matrix contains the last factor.
     pub fn make(&mut self, fill: impl FnOnce(&mut DMatrix<f64>)) {
         fill(&mut self.matrix);
         let n = self.matrix.nrows();
@@ -48,7 +48,7 @@ impl LuFactor {
         }
     }
 
-    /// Solves A x = b, `x`: b before; false where the matrix is singular.
+    /// Solves A x = b, where `x` contains b on entry; returns false if the matrix is singular.
     pub fn solve(&self, x: &mut DVector<f64>) -> bool {
         let (n, all, x) = (self.matrix.nrows(), self.matrix.as_slice(), x.as_mut_slice());
         self.exchanged.iter().enumerate().for_each(|(k, &pivot)| x.swap(k, pivot));

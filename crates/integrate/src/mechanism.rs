@@ -1,10 +1,10 @@
-//! Interface of a system to the integrators.
+//! Interface between a system and the integrators.
 
 use nalgebra::{DMatrix, DVector};
 
 /// A mechanical system in generalised coordinates q with a constant mass matrix.
 ///
-/// Any consistent units; ale-gear's own are mm, rad, t, s, N, N mm.
+/// Any consistent units; ale-gear uses mm, rad, t, s, N, N mm.
 pub trait Mechanism {
     /// Error of an evaluation of forces.
     type Error;
@@ -12,28 +12,29 @@ pub trait Mechanism {
     /// Mass matrix M, n x n, symmetric positive definite.
     fn mass(&self) -> &DMatrix<f64>;
 
-    /// Generalised forces at a state, and their exact tangents where `out.tangents` asks for them.
+    /// Generalised forces at a state, and their exact tangents if `out.tangents` requests them.
     ///
     /// # Errors
-    /// The system's own.
+    /// The error of the system.
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Self::Error>;
 
     /// Potential energy V(t, q) of the conservative forces.
     ///
     /// # Errors
-    /// The system's own.
+    /// The error of the system.
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error>;
 
-    /// Potential energy at a place off the path of the motion, for the ledger alone. A system need not keep anything of
-    /// that evaluation, and twelve correct digits are enough.
+    /// Potential energy at a position off the path of the motion, used only for the ledger. The system need not keep
+    /// anything of this evaluation, and twelve correct digits are sufficient.
     ///
     /// # Errors
-    /// The system's own.
+    /// The error of the system.
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
         self.potential(t, q)
     }
 
-    /// Functions whose changes of sign are events: contact gained (from below) or lost. None unless a system has some.
+    /// Number of event functions. Their sign changes are events: contact gained (from below) or lost. By default there
+    /// are none.
     fn events(&self) -> usize {
         0
     }
@@ -41,7 +42,7 @@ pub trait Mechanism {
     /// Values of the event functions.
     ///
     /// # Errors
-    /// The system's own.
+    /// The error of the system.
     fn event_values(
         &mut self,
         _t: f64,
@@ -52,20 +53,19 @@ pub trait Mechanism {
         Ok(())
     }
 
-    /// Called when a step has been taken for good: the place for a tooth change, which must leave q, v and forces as
-    /// they are.
+    /// Called when a step has been accepted: the place for a tooth change, which must not change q, v and forces.
     ///
     /// # Errors
-    /// The system's own.
+    /// The error of the system.
     fn accepted(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), Self::Error> {
         Ok(())
     }
 
-    /// Forgets what is remembered of earlier places, so that all answers depend on the place alone, to the last bit.
-    /// Nothing to do for a system whose forces are formulas.
+    /// Discards the memory of earlier positions, so that results depend only on the position, to the last bit. Not
+    /// needed for a system whose forces are formulas.
     fn forget(&mut self) {}
 
-    /// Called when a cycle of the motion between two times (s) is complete: the place for sums over cycles.
+    /// Called when a cycle of the motion between two times (s) is complete, for sums over cycles.
     fn end_cycle(&mut self, _begin: f64, _end: f64) {}
 }
 
@@ -112,29 +112,29 @@ impl<M: Mechanism> Mechanism for &mut M {
 /// Generalised forces of a system of n coordinates at one state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forces {
-    /// -dV/dq, the part that has a potential.
+    /// Conservative forces -dV/dq.
     pub conservative: DVector<f64>,
-    /// All the rest: dampers, friction, drives and loads.
+    /// All other forces: dampers, friction, drives and loads.
     pub other: DVector<f64>,
-    /// -df/dq, n x n.
+    /// Stiffness -df/dq, n x n.
     pub stiffness: DMatrix<f64>,
-    /// -df/dv, n x n.
+    /// Damping -df/dv, n x n.
     pub damping: DMatrix<f64>,
-    /// Whether the tangents are wanted.
+    /// Whether the tangents are requested.
     pub tangents: bool,
-    /// Whether [`Forces::parametric`] is wanted.
+    /// Whether [`Forces::parametric`] is requested.
     pub rates: bool,
-    /// Power of drives and loads into the system.
+    /// Power that drives and loads supply to the system.
     pub supplied: f64,
-    /// Explicit change of the potential with time at fixed coordinates, dV/dt, where [`Forces::rates`] asks for it;
-    /// never together with tangents.
+    /// Explicit change of the potential with time at fixed coordinates, dV/dt, if [`Forces::rates`] requests it; never
+    /// together with tangents.
     pub parametric: f64,
-    /// Power that dampers and friction take.
+    /// Power dissipated by dampers and friction.
     pub dissipated: f64,
 }
 
 impl Forces {
-    /// No forces on `n` coordinates.
+    /// Zero forces on `n` coordinates.
     pub fn zeros(n: usize) -> Self {
         Self {
             conservative: DVector::zeros(n),
@@ -149,7 +149,7 @@ impl Forces {
         }
     }
 
-    /// All to zero but what is wanted.
+    /// Sets everything to zero except the requests.
     pub fn clear(&mut self) {
         // Of few numbers: an iterator of nalgebra takes longer than they do.
         self.conservative.as_mut_slice().fill(0.0);
@@ -164,7 +164,7 @@ impl Forces {
         [self.supplied, self.dissipated]
     }
 
-    /// f, coordinate `i`.
+    /// Total force f on coordinate `i`.
     pub fn total(&self, i: usize) -> f64 {
         self.conservative[i] + self.other[i]
     }

@@ -1,12 +1,12 @@
-//! Newton's method on one implicit step.
+//! Newton's method for one implicit step.
 //!
-//! A line search follows where full steps do not converge because a contact opens and closes, or friction reverses, in
-//! turns. It goes along the step to where the residual does no more work. So a sign change of friction within a tenth
-//! of a mm/s is found between two steps that both jump over it, however short the time step is.
+//! A line search is used if full steps do not converge because a contact opens and closes, or friction reverses,
+//! alternately. It searches along the step for the point where the residual does no more work. So a sign change of
+//! friction within a tenth of a mm/s is found between two steps that both jump over it, however short the time step is.
 //!
 //! The tangent is factored once and kept while the steps decrease fast. The error after such a step is its contraction
-//! times the step, so two steps tell when to stop. Where steps decrease slowly, because contact opens or closes, the
-//! tangent is factored anew.
+//! times the step, so two steps show when to stop. If steps decrease slowly because contact opens or closes, the
+//! tangent is factored again.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -104,7 +104,7 @@ pub(crate) enum NoStep {
 }
 
 impl NoStep {
-    /// The error of a step of length `h` from a time on (s), whose matrix is of the time `at`.
+    /// The error of a step of length `h` that starts at a time (s), whose matrix is evaluated at the time `at`.
     pub fn error<E>(self, (time, h): (f64, f64), at: f64) -> MotionError<E> {
         match self {
             Self::Singular => MotionError::Singular { time: at, which: "iteration" },
@@ -114,7 +114,7 @@ impl NoStep {
 }
 
 impl Newton {
-    /// Iteration for `n` coordinates.
+    /// Memory of the iteration for `n` coordinates.
     pub fn new(n: usize) -> Self {
         let changes = [f64::INFINITY; 2];
         Self {
@@ -128,19 +128,19 @@ impl Newton {
         }
     }
 
-    /// Before the first evaluation of a step.
+    /// Called before the first evaluation of a step.
     pub fn begin(&mut self, forces: &mut Forces) {
         (forces.tangents, forces.rates) = (true, false);
         (self.is_made, self.line, self.part) = (false, None, false);
         (self.changes, self.last) = ([f64::INFINITY; 2], f64::INFINITY);
     }
 
-    /// Discards the factor: the next evaluation makes a new one.
+    /// Discards the factor, so that the next evaluation makes a new one.
     pub fn renew(&mut self) {
         self.is_made = false;
     }
 
-    /// Makes forces ready for the next evaluation, with tangents or without.
+    /// Prepares the forces for the next evaluation, with or without tangents.
     pub fn prepare(&mut self, forces: &mut Forces) {
         let [last, before] = self.changes;
         if self.line.is_some() || (before.is_finite() && last > SLOW_CONTRACTION * before) {
@@ -150,11 +150,11 @@ impl Newton {
         forces.clear();
     }
 
-    /// The next step for the residual `rest`, to be taken away from the coordinates. `matrix` makes the matrix where its
-    /// tangents are new.
+    /// The next step for the residual `rest`, to be subtracted from the coordinates. `matrix` assembles the matrix if
+    /// its tangents are new.
     ///
     /// # Errors
-    /// [`NoStep`].
+    /// [`NoStep`] if there is no step.
     pub fn step(
         &mut self,
         forces: &Forces,
@@ -184,20 +184,20 @@ impl Newton {
         Ok(&self.step)
     }
 
-    /// Measures the last step, taken to `q`.
+    /// Measures the last step, which led to `q`.
     pub fn measure(&mut self, q: &DVector<f64>, scale: &DVector<f64>) {
         let one = |i: usize| self.step[i].abs() / (TOLERANCE * scale[i]).max(8.0 * f64::EPSILON * q[i].abs());
         self.last = (0..q.len()).map(one).fold(0.0, f64::max);
         self.changes = if self.part { [f64::INFINITY; 2] } else { [self.last, self.changes[0]] };
     }
 
-    /// Largest change of a coordinate by the last step over what is round-off for it.
+    /// Largest change of a coordinate in the last step, relative to the round-off of the coordinate.
     pub fn change(&self) -> f64 {
         self.last
     }
 
-    /// Whether the iteration is over: by the last change, by what two of them say is left, or because changes are
-    /// noise.
+    /// Whether the iteration is finished: by the last change, by the remaining error estimated from two changes, or
+    /// because changes are noise.
     pub fn settled(&self) -> bool {
         let [last, before] = self.changes;
         let shrinks = before.is_finite() && last < 0.5 * before;

@@ -1,4 +1,4 @@
-//! Whether a motion repeats itself.
+//! Tests whether a motion is periodic.
 
 use std::collections::VecDeque;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::State;
 
-/// Longest period that is looked for, periods.
+/// Longest period that is searched, in periods of the excitation.
 pub const LONGEST_PERIOD: usize = 8;
 /// Largest ratio of residuals with which a longer period replaces a shorter one: decaying beats come nearer to
 /// themselves after some cycles than after one.
@@ -15,7 +15,7 @@ const CLEARLY_SMALLER: f64 = 0.03;
 /// Peak to peak below which a coordinate counts as still, over its scale.
 const STILL_AMPLITUDE: f64 = 1e-6;
 
-/// Least and largest coordinates and velocities over some time, such as a period.
+/// Smallest and largest coordinates and velocities over some time, such as a period.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Envelope {
     low: [DVector<f64>; 2],
@@ -23,13 +23,13 @@ pub struct Envelope {
 }
 
 impl Envelope {
-    /// Envelope of one state: least and largest are that state.
+    /// Envelope of one state: its smallest and largest values are those of that state.
     pub fn new(state: &State) -> Self {
         let both = [state.q.clone(), state.v.clone()];
         Self { low: both.clone(), high: both }
     }
 
-    /// Takes in a further state.
+    /// Extends the envelope to a further state.
     pub fn widen(&mut self, state: &State) {
         self.take_in([&state.q, &state.v], [&state.q, &state.v]);
     }
@@ -58,12 +58,13 @@ impl Envelope {
     }
 }
 
-/// Periodicity of a motion: how nearly it repeats itself.
+/// Periodicity of a motion: how accurately it repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Periodicity {
-    /// Periods after which it does best: 1, or more where a subharmonic answer has been found.
+    /// Number of periods after which it repeats best: 1, or more for a subharmonic response.
     pub period: usize,
-    /// Largest difference of a coordinate or a velocity after that many cycles, over its peak to peak in a period.
+    /// Largest difference of a coordinate or a velocity after that number of periods, relative to its peak to peak in a
+    /// period.
     pub residual: f64,
 }
 
@@ -74,7 +75,7 @@ pub struct Recurrence {
 }
 
 impl Recurrence {
-    /// Comparison from a state on.
+    /// Starts the comparison at a state.
     pub fn from(state: &State) -> Self {
         Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
     }
@@ -84,11 +85,11 @@ impl Recurrence {
         self.starts.iter().flatten().all(|part| part.len() == n)
     }
 
-    /// Takes the state at the end of a period. The result is the shortest period within `tolerance`, else the best one;
-    /// a longer period counts only where its residual is clearly smaller.
+    /// Takes the state at the end of a period. The result is the shortest period within `tolerance`, otherwise the best
+    /// one. A longer period is chosen only if its residual is clearly smaller.
     ///
-    /// `scale`: sizes of the coordinates that are compared, from the first on. Of the coordinate `free`, which need not
-    /// return (a driver that a torque turns), only the velocity is compared.
+    /// `scale` has the magnitudes of the coordinates that are compared, starting with the first. The coordinate `free`
+    /// need not return (the rotation of a driver that a torque drives); only its velocity is compared.
     pub fn judge(
         &mut self,
         state: &State,
@@ -117,8 +118,8 @@ impl Recurrence {
     }
 }
 
-/// Largest difference of two states over peak to peak values; for what is still, over its scale. What has no end of a scale
-/// is left out.
+/// Largest difference of two states relative to peak-to-peak values; for coordinates at rest, relative to their scale.
+/// Coordinates with an infinite scale are not compared.
 pub fn difference(
     [now, before]: [&[DVector<f64>; 2]; 2],
     size: &[DVector<f64>; 2],
@@ -147,18 +148,18 @@ pub fn difference(
 /// longer period.
 const SUBHARMONIC: f64 = 0.01;
 
-/// One number of each row of the last cycles: whether a motion repeats itself as far as it tells.
+/// One number of each row of the last cycles, to test whether a motion is periodic.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SignalRecurrence {
     cycles: VecDeque<Vec<f64>>,
 }
 
 impl SignalRecurrence {
-    /// Takes the rows of one more cycle. A period of several cycles is one only where the motion differs clearly after
-    /// one: what dies out slowly may look alike after a few cycles by chance.
+    /// Takes the rows of one more cycle. A period of several cycles counts only if the motion clearly differs after one
+    /// cycle, because a slowly decaying vibration may look similar after a few cycles by chance.
     ///
-    /// Largest difference of a row to the one that many cycles before, over the peak to peak of this cycle, or over a
-    /// millionth of its largest value where that is more: what does not vibrate repeats itself.
+    /// Largest difference of a row from the row that number of cycles earlier. It is relative to the peak to peak of
+    /// this cycle or, if larger, to a millionth of its largest value. So a signal without vibration counts as periodic.
     pub fn judge(&mut self, rows: Vec<f64>, tolerance: f64) -> Periodicity {
         let (low, high) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
         let size = (high - low).max(1e-6 * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);

@@ -1,10 +1,10 @@
-//! How long the steps of an explicit method may be. Theory (48a).
+//! Largest stable step of an explicit method. Theory (48a).
 //!
 //! ```text
 //! M q'' + C q' + K q = 0,   q ~ exp(lambda t):   stable with steps h while |R(h lambda)| <= 1 for every lambda
 //! ```
-//! R is the method's stability polynomial. Runge-Kutta 4 is stable on the imaginary axis (no damping) up to |h
-//! lambda| = 2.828 and on the negative real one (damping alone) up to 2.785; Dormand-Prince 5(4) up to 0.998 and 3.307.
+//! R is the method's stability polynomial. Runge-Kutta 4 is stable on the imaginary axis (no damping) up to |h lambda|
+//! = 2.828 and on the negative real axis (only damping) up to 2.785; Dormand-Prince 5(4) up to 0.998 and 3.307.
 
 use nalgebra::{Cholesky, Complex, DMatrix, Dyn};
 
@@ -19,21 +19,21 @@ const TANGENT_CHANGE: f64 = 0.02;
 /// Damped eigenvalues below this share of the largest move nothing.
 const RIGID_SHARE: f64 = 1e-9;
 
-/// The longest stable step of an explicit method.
+/// The largest stable step of an explicit method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimit {
-    /// Length, s.
+    /// Length of the step, s.
     pub step: f64,
     /// |lambda| of the motion that sets it, rad/s.
     pub rate: f64,
 }
 
 impl Scheme {
-    /// Longest step with which no vibration of M q'' + C q' + K q = 0 grows that does not grow by itself; all n x n, M
-    /// symmetric positive definite.
+    /// Largest step with which no vibration of M q'' + C q' + K q = 0 grows numerically that does not grow physically;
+    /// all matrices n x n, M symmetric positive definite.
     ///
-    /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where
-    /// nothing moves by itself, and for matrices that hold no numbers.
+    /// Motions that grow physically (flutter) are limited like undamped motion. `None` for implicit methods, if there
+    /// is no free motion, and for matrices with entries that are not finite.
     pub fn step_limit(
         &self,
         mass: &DMatrix<f64>,
@@ -114,7 +114,7 @@ fn bound([stiffness, damping]: [f64; 2]) -> f64 {
     0.5 * (damping + (damping * damping + 4.0 * stiffness).sqrt())
 }
 
-/// The longest stable step over several states of a system, such as those of a mesh cycle: that of the stiffest one.
+/// The largest stable step over several states of a system, such as those of a mesh cycle: that of the stiffest state.
 #[derive(Debug, Clone)]
 pub struct Stiffest {
     polynomial: Vec<f64>,
@@ -124,12 +124,12 @@ pub struct Stiffest {
 }
 
 impl Stiffest {
-    /// Before the first state; `None` for implicit methods, which need no such care, and a mass matrix that is none.
+    /// Before the first state. `None` for implicit methods, which have no limit, and for an invalid mass matrix.
     pub fn new(scheme: Scheme, mass: &DMatrix<f64>) -> Option<Self> {
         Some(Self { polynomial: scheme.stability_polynomial()?, mass: Cholesky::new(mass.clone())?, found: None })
     }
 
-    /// Looks at one more state, by its forces with tangents.
+    /// Includes one more state, given its forces with tangents.
     pub fn include(&mut self, forces: &Forces) {
         let Some(both) = per_mass(&self.mass, [&forces.stiffness, &forces.damping]) else { return };
         let rate = bound([both[0].norm(), both[1].norm()]);
@@ -138,7 +138,7 @@ impl Stiffest {
         }
     }
 
-    /// The limit at the stiffest state so far; `None` where nothing moves by itself.
+    /// The limit at the stiffest state so far; `None` if there is no free motion.
     pub fn limit(&self) -> Option<StepLimit> {
         let (_, [stiffness, damping]) = self.found.as_ref()?;
         limit(&self.polynomial, stiffness, damping)
@@ -156,14 +156,14 @@ pub(crate) struct StabilityGuard {
 }
 
 impl StabilityGuard {
-    /// Guard of an explicit method; `None` for others, which need none.
+    /// Stability guard of an explicit method; `None` for others, which need none.
     pub fn new(scheme: Scheme) -> Option<Self> {
         let polynomial = scheme.stability_polynomial()?;
         Some(Self { safe: shortest_reach(&polynomial), polynomial, found: None })
     }
 
-    /// Longest stable step with the tangents of `forces`, as far as it matters for a step of length `h`: infinite where
-    /// that is well within it.
+    /// Largest stable step with the tangents of `forces`, as far as it matters for a step of length `h`: infinite if
+    /// `h` is clearly stable.
     pub fn longest(&mut self, mass: &Cholesky<f64, Dyn>, forces: &Forces, h: f64) -> f64 {
         let Some([stiffness, damping]) = per_mass(mass, [&forces.stiffness, &forces.damping]) else {
             // What is no number says nothing of steps; it shows in the motion.

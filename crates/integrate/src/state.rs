@@ -1,4 +1,4 @@
-//! All that a motion is at one time: enough to go on from, bit by bit.
+//! Complete state of a motion at one time, from which it can be continued bit by bit.
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -6,26 +6,26 @@ use serde::{Deserialize, Serialize};
 /// State of a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Time.
+    /// Time of the state.
     pub time: f64,
     /// Coordinates.
     pub q: DVector<f64>,
     /// Velocities.
     pub v: DVector<f64>,
-    /// Accelerations: M a = f.
+    /// Accelerations, from M a = f.
     pub a: DVector<f64>,
-    /// The integrator's own acceleration (generalised-alpha); equal to `a` at a start.
+    /// The integrator's own acceleration (generalised-alpha); equal to `a` in an initial state.
     pub averaged: DVector<f64>,
-    /// Powers of drives and loads, and of dampers: at this state, where the integrator books work by them.
+    /// Powers of drives and loads, and of dampers, at this state, if the integrator computes work from them.
     pub powers: [f64; 2],
-    /// Step that the step control would take next; 0 at a start.
+    /// Step that the step control would take next; 0 in an initial state.
     pub next_step: f64,
-    /// Step that led here; 0 at a start.
+    /// Step that led here; 0 in an initial state.
     pub last_step: f64,
 }
 
 impl State {
-    /// State of coordinates and velocities, accelerations still to be found by the integrator.
+    /// State with coordinates and velocities; the integrator computes the accelerations.
     pub fn new(time: f64, q: DVector<f64>, v: DVector<f64>) -> Self {
         let n = q.len();
         let rest = || DVector::zeros(n);

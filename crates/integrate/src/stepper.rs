@@ -1,4 +1,4 @@
-//! What every method of integration says of itself, and the one thing it does: a step.
+//! Interface of an integration method: its properties, and one step.
 
 use nalgebra::{Cholesky, DVector, Dyn};
 
@@ -48,7 +48,7 @@ pub(crate) struct StepWork {
 }
 
 impl StepWork {
-    /// Work vectors for `n` coordinates.
+    /// Allocates work vectors for `n` coordinates.
     pub fn new(n: usize) -> Self {
         let zeros = || DVector::zeros(n);
         Self { error: zeros(), newton: Newton::new(n), begun: zeros(), rest: zeros(), moved: [(); 4].map(|()| zeros()) }

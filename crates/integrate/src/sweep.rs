@@ -1,27 +1,27 @@
-//! A sweep over the values of a parameter: each answer starts where the one before ended.
+//! A sweep over the values of a parameter; each solution starts where the preceding one ended.
 
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-/// Order in which a sweep goes through its values.
+/// Order in which a sweep takes its values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SweepDirection {
-    /// Every value starts by itself.
+    /// Every value starts separately.
     Independent,
-    /// Sweep from the first value to the last, each beginning where the one before ended.
+    /// From the first value to the last; each starts where the preceding one ended.
     Up,
-    /// Sweep from the last value to the first.
+    /// From the last value to the first; each starts where the preceding one ended.
     Down,
 }
 
-/// Answers at all values (ascending), one list a direction, in the order in which that goes through them. Directions, and
-/// independent values, run in parallel; answers are the same for any number of threads.
+/// Results at all values (ascending), one list per direction, in the order of the sweep. Directions, and independent
+/// values, run in parallel; the results are the same for any number of threads.
 ///
-/// `at` answers at a value from the end of another one, or from a start of its own; with the answer it gives its own end.
-/// A value that cannot go on from its neighbour starts by itself, unless `final_failure` says that the start does not
-/// matter. After a value without an answer the sweep goes on from the last one that has one. `seen` gets each answer and
-/// may end its direction there.
+/// `at` solves at a value, from the final state of another one or from its own start, and returns the result with its
+/// final state. A value that cannot continue from its neighbour starts separately, unless `final_failure` says that the
+/// start does not matter. After a value without a result the sweep continues from the last value with a result. `seen`
+/// receives each result and may end its direction there.
 pub fn sweep<V: Sync, P: Send, S, E: Send>(
     values: &[V],
     directions: &[SweepDirection],

@@ -1,9 +1,9 @@
-//! How many cycles a motion of a given length has.
+//! Number of cycles of a motion of given length.
 
 /// Share of a cycle that is none: last digits of what was turned.
 const NO_CYCLE: f64 = 1e-9;
 
-/// Whole cycles within which a motion ends that turns through so many of them, >= 1: rows are written to the end of the last
+/// Number of whole cycles, >= 1, within which a motion of `turned` cycles ends; rows are written to the end of the last
 /// one.
 ///
 /// ```

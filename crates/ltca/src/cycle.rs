@@ -1,9 +1,9 @@
-//! Stations of a mesh cycle side by side.
+//! Solves the stations of a mesh cycle in parallel.
 //!
-//! Stations are solved in groups, in parallel. Each group starts afresh, in the window that its stations ask for, so
-//! results do not depend on the number of threads. Afterwards tooth changes are put in order: a change may have had to
-//! wait for its tooth to be free of load, so that a group ended in another window than the next one began in. Then that
-//! next group is solved again from there.
+//! Stations are solved in groups, in parallel. Each group starts without history, in the window that its stations need,
+//! so results do not depend on the number of threads. Afterwards the tooth changes are reconciled. A change is
+//! postponed while its tooth carries load, so a group may have ended in another window than the one in which the next
+//! group began. That next group is then solved again from there.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub(crate) struct SolverState {
 pub(crate) type Solved = Result<(StaticPosition, SolverState), StaticError>;
 
 impl CycleSolver {
-    /// Restores the state after a station, so that the next station goes on from there.
+    /// Restores the state after a station, so that the next station continues from there.
     pub fn resume(&mut self, inputs: &CycleInputs<'_>, state: SolverState) -> Result<(), StaticError> {
         let SolverState { window, set, last, changes, .. } = state;
         if self.window != window {

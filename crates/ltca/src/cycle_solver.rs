@@ -1,4 +1,4 @@
-//! A pair from station to station: window, contact and last solution.
+//! A pair that moves from station to station: window, contact and last solution.
 
 use std::sync::Arc;
 
@@ -31,10 +31,10 @@ pub(crate) struct CycleSolver {
 }
 
 impl CycleSolver {
-    /// Solver at rest, in a window with the given flanks and matrices.
+    /// Solver without a solution yet, in a window with the given flanks and matrices.
     ///
     /// # Errors
-    /// [`StaticError`] when the contact cannot be set up.
+    /// [`StaticError`] if the contact cannot be set up.
     pub fn new(inputs: &CycleInputs<'_>, window: SlidingWindow, set: ContactSet) -> Result<Self, StaticError> {
         let contact = WindowContact::new(inputs.pair, set, &inputs.options.contact)?;
         Ok(Self { window, contact, last: None, changes: 0 })
@@ -144,10 +144,10 @@ impl CycleSolver {
         })
     }
 
-    /// Moves the window one tooth on at the station just solved, and solves it again.
+    /// Moves the window one tooth further at the station just solved, and solves it again.
     ///
     /// # Errors
-    /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
+    /// [`StaticError::Window`] if the outgoing tooth carries load; no load is ever dropped.
     pub fn change(
         &mut self,
         inputs: &CycleInputs<'_>,
@@ -173,10 +173,10 @@ impl CycleSolver {
         self.window.window().pairs().map(force).collect()
     }
 
-    /// Begins in a given window with nothing remembered: a run does not depend on those before it.
+    /// Begins in a given window without any history, so a run does not depend on earlier ones.
     ///
     /// # Errors
-    /// [`StaticError`] when the window cannot be entered.
+    /// [`StaticError`] if the window cannot be entered.
     pub fn begin(&mut self, inputs: &CycleInputs<'_>, window: SlidingWindow) -> Result<(), StaticError> {
         if self.window != window {
             self.enter(inputs, window)?;
@@ -195,11 +195,11 @@ impl CycleSolver {
         Ok(())
     }
 
-    /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
-    /// outgoing tooth is free of load. `seen` gets every change.
+    /// Solves a station and makes the tooth changes that are due: as soon as another window is nearer to the middle and
+    /// the outgoing tooth is unloaded. `seen` receives every change.
     ///
     /// # Errors
-    /// [`StaticError`].
+    /// [`StaticError`] if the station cannot be solved.
     pub fn advance(
         &mut self,
         inputs: &CycleInputs<'_>,

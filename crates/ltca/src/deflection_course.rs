@@ -1,4 +1,4 @@
-//! The deflection from station to station, and where it goes on.
+//! Extrapolates the deflection from the last stations to the next one.
 
 use ale::Station;
 
@@ -7,7 +7,7 @@ const STATIONS: usize = 3;
 /// Largest change from station to station that is believed, over the rotation.
 const FARTHEST: f64 = 0.2;
 
-/// Rotation of the driven gear that is due to load at the last stations: a start for the next one.
+/// Rotation of the driven gear caused by the load at the last stations, from which the next solution starts.
 #[derive(Debug, Clone, Default)]
 pub struct DeflectionCourse {
     /// Stations and rotations (rad), the newest first.
@@ -15,8 +15,8 @@ pub struct DeflectionCourse {
 }
 
 impl DeflectionCourse {
-    /// Expected rotation at a station, rad: the polynomial through those known, or the last one where that leads far
-    /// from it; 0 without any.
+    /// Expected rotation at a station, rad: the polynomial through the known stations, or the last value if the
+    /// polynomial is far from it; 0 if there are none.
     pub fn at(&self, station: Station) -> f64 {
         let Some((_, last)) = self.last.first() else { return 0.0 };
         let expected = self.extrapolated(station);
@@ -33,7 +33,7 @@ impl DeflectionCourse {
         self.last.iter().enumerate().map(|(i, (_, rotation))| weight(i) * rotation).sum()
     }
 
-    /// Course with the rotation at a further station, which replaces one that is known there.
+    /// Adds the rotation at a further station; it replaces a known value at that station.
     #[must_use]
     pub fn and(mut self, station: Station, rotation: f64) -> Self {
         self.last.retain(|(known, _)| *known != station);

@@ -23,40 +23,40 @@ use crate::{
 pub struct Equilibrium {
     /// Station of the mesh cycle.
     pub station: Station,
-    /// Poses of both gears, in the frames in which their compliance matrices are given.
+    /// Poses of both gears, for the frames in which their compliance matrices are given.
     pub poses: [Pose; 2],
     /// Rotation of the driven gear from the unloaded position, rad, about +z.
     pub rotation: f64,
-    /// Rotation of the driven gear without load, rad about +z: where the flanks just touch.
+    /// Rotation of the driven gear without load, rad about +z, at which the flanks just touch.
     pub unloaded_rotation: f64,
     /// Place where the unloaded flanks touch; none where nominal flanks touch along lines.
     pub(crate) unloaded_touch: Option<Nearest>,
-    /// Transmission error, mm; positive when the driven gear lags.
+    /// Transmission error, mm; positive if the driven gear lags.
     pub transmission_error: f64,
     /// Transmission error without load, mm.
     pub kinematic_transmission_error: f64,
     /// Candidate points.
     pub rows: Vec<ContactRow>,
-    /// The slice of each row; none where points touch.
+    /// The slice of each row; empty for contact of points.
     pub slices: Vec<Slice>,
-    /// The local approach of each slice.
+    /// Local state of each slice.
     pub states: Vec<SliceState>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames. Empty for slices on reduced
-    /// gears: [`Equilibrium::displacements_on`] computes them where they are needed.
+    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices. Empty for slices on
+    /// reduced gears: [`Equilibrium::displacements_on`] computes them on request.
     pub displacements: [Vec<f64>; 2],
-    /// What the pose was off by at the last step, over the approach.
+    /// Error of the pose at the last step, relative to the approach.
     pub pose_residual: f64,
-    /// Active-set iterations over all pose steps.
+    /// Number of active-set iterations over all steps of the pose.
     pub iterations: usize,
-    /// Rotation due to load here and at the stations before.
+    /// Rotation caused by the load here and at the preceding stations.
     pub course: DeflectionCourse,
 }
 
 /// Reach that a search which found nothing begins with, over the normal module.
 const LEAST_REACH: f64 = 1e-9 / 3.0;
-/// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
+/// Mean line stiffness for the first guess of the approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
 pub const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 80;
@@ -74,8 +74,8 @@ pub(crate) fn poses(windowed: &WindowedPair, station: Station, rotation: f64) ->
 }
 
 impl Equilibrium {
-    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that
-    /// the equilibrium was found on.
+    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window on
+    /// which the equilibrium was found.
     pub fn displacements_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
         if self.displacements.iter().all(Vec::is_empty) {
             let rows = set.supported_rows(&self.poses, &self.rows, &self.slices, &self.solution.forces);
@@ -86,8 +86,8 @@ impl Equilibrium {
         self.displacements.clone()
     }
 
-    /// What loads both gears: forces on the boundary coordinates of `set`, the window that the equilibrium was found on,
-    /// N, in the frames of its matrices; of whole gears their displacements, mm.
+    /// Loads on both gears: for reduced gears the forces on the boundary coordinates of `set`, the window on which the
+    /// equilibrium was found, N, in the frames of its matrices; for whole gears their displacements, mm.
     pub fn loads_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
         let rows = set.supported_rows(&self.poses, &self.rows, &self.slices, &self.solution.forces);
         set.forces_of(&rows, &self.solution.forces).unwrap_or_else(|| self.displacements.clone())
@@ -102,7 +102,7 @@ impl Equilibrium {
         self.transmission_error - self.kinematic_transmission_error
     }
 
-    /// Opening of the gaps at the rows' normal approach, largest, mm.
+    /// Largest closing of a gap by the normal approach of the flanks, mm.
     pub fn approach(&self, pair: &GearPair) -> f64 {
         self.elastic_error().abs() * pair.base_helix_angle().cos()
     }

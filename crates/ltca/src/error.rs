@@ -1,92 +1,93 @@
 //! Errors of a quasi-static analysis.
 
-/// A quasi-static analysis could not go on.
+/// A quasi-static analysis cannot continue.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StaticError {
-    /// Contact cannot be set up: a gear cannot be reduced, mesh and geometry do not fit, an offset is out of range.
+    /// Contact cannot be set up: a gear cannot be reduced, mesh and geometry do not match, or an offset is out of
+    /// range.
     #[error(transparent)]
     SetUp(#[from] contact::ContactError),
-    /// Contact at a station.
+    /// Contact cannot be solved at a station.
     #[error("at mesh phase {phase:.6} of cycle {cycle}: {source}")]
     Contact {
         /// Mesh cycle.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
-        /// Error of the contact.
+        /// Error of the contact solution.
         source: contact::ContactError,
     },
-    /// The pose did not settle.
+    /// The pose did not converge.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: no equilibrium after {iterations} steps, the last one {step_mm:.3e} mm"
     )]
     NoEquilibrium {
         /// Mesh cycle.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
-        /// Steps.
+        /// Number of steps.
         iterations: usize,
         /// Last step on the base circle, mm.
         step_mm: f64,
     },
-    /// Teeth would bend by as much as they are high.
+    /// The deflection of the teeth would be as large as their height.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: {torque_nm} N m would bend the teeth by {deflection_mm:.3} mm, at a module of {module_mm} mm"
     )]
     Overloaded {
         /// Mesh cycle.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
         /// Torque, N m.
         torque_nm: f64,
-        /// How far the driven gear had given way when its flanks lost each other, on the base circle; mm.
+        /// Deflection of the driven gear on the base circle at which its flanks lost contact, mm.
         deflection_mm: f64,
         /// Normal module, mm.
         module_mm: f64,
     },
-    /// Teeth have gone through each other.
+    /// Teeth have passed through each other.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: teeth have passed through each other: along the line of action flanks are {distance_mm:.3e} mm beyond touching (negative: apart), teeth are {thickness_mm:.3} mm thick there"
     )]
     PassedThrough {
         /// Mesh cycle.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
-        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative:
-        /// farther apart. mm.
+        /// Distance by which the gears have come closer along the transverse line of action than flanks that touch, mm;
+        /// negative: they are farther apart.
         distance_mm: f64,
         /// Half a base pitch, mm.
         thickness_mm: f64,
     },
-    /// No flanks face each other.
+    /// No flanks face each other at this station.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: without load no flanks touch, wherever the driven gear is turned"
     )]
     Apart {
         /// Mesh cycle.
         cycle: i64,
-        /// Phase, 0 .. 1.
+        /// Phase of the mesh cycle, 0 .. 1.
         phase: f64,
     },
-    /// Tooth window.
+    /// Error of the tooth window.
     #[error(transparent)]
     Window(#[from] ale::AleError),
-    /// Nodal contact with corner contact switched off.
+    /// Contact of points was combined with corner contact switched off.
     #[error("corner contact cannot be switched off in nodal contact: points cannot tell an edge from a flank")]
     NodalCornerContact,
-    /// The derivatives of a position were asked for where there are none.
+    /// Derivatives were requested at a position where they do not exist.
     #[error("at mesh phase {phase:.6} there are no derivatives {what}")]
     NoDerivative {
-        /// Phase, 0 .. 1; no number where it is the same everywhere.
+        /// Phase, 0 .. 1; NaN if it holds at every phase.
         phase: f64,
-        /// Quantity or place without a derivative, as the message names it.
+        /// Quantity or place without a derivative, as named in the message.
         what: &'static str,
     },
-    /// A value out of its range.
+    /// A value outside its range.
     #[error("{name} = {value} is out of range: {expected}")]
     OutOfRange {
         /// Name of the quantity.
@@ -113,7 +114,7 @@ impl From<reduction::ReductionError> for StaticError {
 }
 
 impl StaticError {
-    /// Whether the window has too few teeth: a wider one may do.
+    /// Whether the window has too few teeth, so that a wider one may succeed.
     pub fn is_starved(&self) -> bool {
         matches!(self, Self::Window(ale::AleError::Starved { .. } | ale::AleError::Dropped { .. }))
     }

@@ -1,11 +1,11 @@
-//! How unevenly the load lies over the face width, from its solved distribution. Theory (34a).
+//! Face load factor K_Hbeta from the solved load distribution. Theory (34a).
 
 use contact::SliceResult;
 
-/// K_Hbeta after ISO 6336-1 (its definition, not its estimates): the largest load per width over the mean one, of the
-/// largest line loads that each height of the face sees over the mesh; heights without load count as 0.
+/// K_Hbeta by its definition in ISO 6336-1 (not its estimates): the largest load per width divided by the mean one.
+/// Each height of the face counts with the largest line load over the mesh; heights without load count as 0.
 ///
-/// `loaded`: the loaded slices of all pairs and positions, of a face of `slices` slices. `None` without load.
+/// `loaded` are the loaded slices of all pairs and positions, of a face with `slices` slices. `None` without load.
 pub fn face_load_factor<'a>(slices: usize, loaded: impl IntoIterator<Item = &'a SliceResult>) -> Option<f64> {
     let of_height = envelope(loaded);
     let largest = of_height.iter().map(|(_, load)| *load).fold(0.0, f64::max);
@@ -13,8 +13,7 @@ pub fn face_load_factor<'a>(slices: usize, loaded: impl IntoIterator<Item = &'a 
     (largest > 0.0).then_some(largest / mean)
 }
 
-/// Height on the pinion (mm) and largest line load (N/mm) that each height of the face sees, in the order in which they
-/// come.
+/// Height on the pinion (mm) and largest line load (N/mm) at each height of the face, in the order of first occurrence.
 pub fn envelope<'a>(loaded: impl IntoIterator<Item = &'a SliceResult>) -> Vec<(f64, f64)> {
     let mut of_height: Vec<(f64, f64)> = Vec::new();
     for slice in loaded {

@@ -1,4 +1,4 @@
-//! Gap between two flanks of a pair along the face, and where it is least.
+//! Gap between two flanks of a pair along the face, and its minimum.
 
 use std::cell::Cell;
 
@@ -48,7 +48,7 @@ pub(crate) struct DipPlace {
 }
 
 impl<'a> FlankGap<'a> {
-    /// Not looked at yet; `module`: normal module, mm.
+    /// A gap that has not been evaluated yet; `module` is the normal module, mm.
     pub fn unseen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64) -> Self {
         let half_widths = flanks.each_ref().map(|flank| flank.range()[1][1]);
         let flanks = RigidFlanks::new(flanks.each_ref(), poses);
@@ -61,7 +61,7 @@ impl<'a> FlankGap<'a> {
         gap.looked(&[Some([f64::NEG_INFINITY; 2]); STATIONS], 0.0)
     }
 
-    /// Gap at those stations along the face at which it may be as small as `enough`, mm, after the forecast of each.
+    /// Gap at those stations along the face at which the forecast permits a gap as small as `enough`, mm.
     pub fn looked(self, foretold: &[Option<[f64; 2]>], enough: f64) -> Self {
         let mut gap = self;
         let z = |i: usize| gap.station(i);
@@ -94,7 +94,7 @@ impl<'a> FlankGap<'a> {
         self.half_widths[0]
     }
 
-    /// Gap where an earlier search at nearly the same poses found dips: deeper than any other place.
+    /// Gap at the minima that an earlier search at nearly the same poses found to be the deepest.
     pub fn seen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64, places: &[DipPlace]) -> Self {
         let dip = |&DipPlace { z, is_known }: &DipPlace| Dip {
             z,
@@ -105,14 +105,15 @@ impl<'a> FlankGap<'a> {
         Self { dips: places.iter().map(dip).collect(), ..Self::unseen(flanks, poses, module) }
     }
 
-    /// Places of the dips that may fall to some gap; where stations foretell more than was found, that of `found`.
+    /// Positions of the minima that may reach a given gap. If stations predict more minima than were found, those of
+    /// `found` are used.
     pub fn dips_below(&self, gap: f64, found: Option<f64>) -> Vec<DipPlace> {
         let step = 2.0 * self.half_width() / (STATIONS - 1) as f64;
         let holds = |dip: &&Dip| dip.lowest <= gap || found.is_some_and(|z| (dip.z - z).abs() <= step);
         self.dips.iter().filter(holds).map(|&Dip { z, is_known, .. }| DipPlace { z, is_known }).collect()
     }
 
-    /// Roll angle of least gap at height `z` of the pinion, and the gap.
+    /// Roll angle of the smallest gap at height `z` of the pinion, and the gap.
     pub fn at(&self, z: f64) -> Option<(f64, f64)> {
         let mut hint = self.hint.get();
         let (roll, gap, foot) = self.flanks.least_gap(z, &mut hint)?;
@@ -122,12 +123,12 @@ impl<'a> FlankGap<'a> {
         (foot[1].abs() <= end).then_some((roll, gap))
     }
 
-    /// Gaps to first order at the stations, from which to which; `None` where nothing is faced.
+    /// First-order bounds of the gap at the stations; `None` where the flank faces nothing.
     pub fn foretold(&self) -> Vec<Option<[f64; 2]>> {
         (0..STATIONS).map(|i| self.flanks.foretold(self.station(i))).collect()
     }
 
-    /// Station at which the least gap is foretold, and that gap.
+    /// Station with the smallest predicted gap, and that gap.
     pub fn told_least(&self, foretold: &[Option<[f64; 2]>]) -> Option<(f64, f64, &Self)> {
         let told = foretold.iter().enumerate().filter_map(|(i, told)| Some((i, (*told)?)));
         let least = told.map(|(i, [low, high])| (i, 0.5 * (low + high))).min_by(|a, b| a.1.total_cmp(&b.1));
@@ -138,14 +139,14 @@ impl<'a> FlankGap<'a> {
         self.half_width() * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0)
     }
 
-    /// What the gap may fall to between the stations: beside each by as much again as it differs from its neighbours,
-    /// twice.
+    /// Lower bound of the gap between the stations: near each station the gap may fall by twice its difference from its
+    /// neighbours.
     pub fn lowest(&self) -> f64 {
         self.dips.iter().map(|dip| dip.lowest).fold(f64::INFINITY, f64::min)
     }
 
-    /// Least gap over the face and where on the pinion, where it is less than `enough`, mm: to round-off, or to a
-    /// nanometre at the `first` look.
+    /// Smallest gap over the face and its position on the pinion, if it is less than `enough`, mm. Accurate to
+    /// round-off, or to a nanometre on the `first` search.
     pub fn nearest_below(&mut self, enough: f64, first: bool) -> Option<(f64, [f64; 2])> {
         let round_off = self.module / if first { FIRST_ROUND_OFF } else { ROUND_OFF };
         let mut best: Option<(f64, [f64; 2])> = None;

@@ -1,4 +1,4 @@
-//! The unloaded pair: where modified, misaligned flanks just touch. Theory (32), (33).
+//! The unloaded pair: the pose at which modified, misaligned flanks just touch. Theory (32), (33).
 
 use ale::{SlidingWindow, Station};
 use contact::{
@@ -69,16 +69,16 @@ impl Look {
 }
 
 impl<'a> Unloaded<'a> {
-    /// Turns the driven gear until the least gap over all pairs, heights and edges is zero.
+    /// Rotates the driven gear until the smallest gap over all pairs, heights and edges is zero.
     ///
     /// ```text
     /// min over pairs and z of min over u of g(u, z; theta) = 0,   theta <- theta - g / (dg/dtheta)
     /// ```
-    /// g is the gap between the flanks with their micro-geometry at the poses of the displaced gears. It is nearly
+    /// g is the gap between the flanks with their micro-geometry at the poses of the displaced gears; it is nearly
     /// linear in theta. Unmodified flanks on parallel axes touch at zero by definition.
     ///
     /// # Errors
-    /// [`StaticError::Apart`] when no flanks face each other.
+    /// [`StaticError::Apart`] if no flanks face each other.
     pub fn new(pair: &'a GearPair, options: &'a ContactOptions, station: Station) -> Result<Self, StaticError> {
         let mut unloaded = Self { pair, options, station, rotation: 0.0, touch: None };
         if unloaded.is_nominal() {
@@ -126,7 +126,7 @@ impl<'a> Unloaded<'a> {
         plain(&self.pair.pinion) && plain(&self.pair.wheel) && !self.options.offsets.iter().any(|o| o.is_tilted())
     }
 
-    /// Kinematic transmission error on the driven gear's base circle, mm; positive when it lags.
+    /// Kinematic transmission error on the driven gear's base circle, mm; positive if it lags.
     pub fn transmission_error(&self) -> f64 {
         let driven = self.options.driven();
         let base_radius = [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven];
@@ -240,8 +240,8 @@ impl<'a> Unloaded<'a> {
         sign * arm.cross(&normal).dot(&(poses[driven].rotation * Vec3::z()))
     }
 
-    /// Derivative of the transmission error by the gap at the place of touch: the place itself is one of least gap and
-    /// moves it by nothing, to first order. `None` where nothing is faced beside it.
+    /// Derivative of the transmission error by the gap at the contact position. The position itself is a minimum of the
+    /// gap, so its motion has no effect to first order. `None` if the flank faces nothing next to it.
     pub fn error_by_gap(&self, touch: &Nearest) -> Option<f64> {
         let driven = self.options.driven();
         let base_radius = [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven];
@@ -251,9 +251,9 @@ impl<'a> Unloaded<'a> {
         Some(-self.options.side().sign() * base_radius / lever)
     }
 
-    /// The touch moved to the height of least gap, which a golden section knows to the root of the gap's round-off.
-    /// `None` where the flanks touch at the end of the range in which they face each other: that end moves with the
-    /// gears.
+    /// The contact moved to the height of smallest gap, which a golden-section search finds to the square root of the
+    /// gap's round-off. `None` if the flanks touch at the end of the range in which they face each other, because that
+    /// end moves with the gears.
     pub fn polished(&self, touch: &Nearest) -> Option<Nearest> {
         let (flanks, poses) = (self.patches(touch.tooth), self.poses());
         let gap = FlankGap::unseen(&flanks, &poses, self.module());
@@ -271,13 +271,13 @@ impl<'a> Unloaded<'a> {
         (is_least && is_smooth).then(|| Nearest { at: [touch.at[0], z + moved], ..*touch })
     }
 
-    /// Gap at the height at which another pair like this one touches, mm.
+    /// Gap at the height at which another, similar pair touches, mm.
     pub fn gap_at(&self, touch: &Nearest) -> Option<f64> {
         let (flanks, poses) = (self.patches(touch.tooth), self.poses());
         FlankGap::unseen(&flanks, &poses, self.module()).at(touch.at[1]).map(|(_, gap)| gap)
     }
 
-    /// A pair at a rotation of its driven gear, wherever its flanks are.
+    /// A pair at a given rotation of its driven gear, whether or not its flanks touch.
     pub fn turned(pair: &'a GearPair, options: &'a ContactOptions, station: Station, rotation: f64) -> Self {
         Self { pair, options, station, rotation, touch: None }
     }
@@ -298,8 +298,8 @@ impl<'a> Unloaded<'a> {
         self.module() / TOUCHING
     }
 
-    /// Length of the contact line (mm) of the pair of a running number: the stretch on which the flanks touch to a
-    /// nanometre at a module of 3 mm, over cos b_b.
+    /// Length of the contact line (mm) of the pair with a running number: the interval over which the gap is below a
+    /// nanometre at a module of 3 mm, divided by cos b_b.
     pub fn line_length(&self, running: i64) -> f64 {
         let poses = self.poses();
         let flanks = self.patches(running - self.station.middle_pair(self.options.sense));
@@ -324,12 +324,12 @@ impl<'a> Unloaded<'a> {
     }
 }
 
-/// A window of teeth that a load asks for beyond the contact ratio.
+/// A window that must be wider than the contact ratio requires, because of the load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForeseenWindow {
-    /// Teeth that it has.
+    /// Number of teeth of the window.
     pub teeth: usize,
-    /// Running number of the pair that would touch beside a window of one tooth less.
+    /// Running number of the pair that would touch next to a window with one tooth less.
     pub pair: i64,
 }
 
@@ -337,9 +337,9 @@ pub struct ForeseenWindow {
 const FORESEEN: usize = 8;
 
 impl ForeseenWindow {
-    /// The window that holds every pair whose undeformed flanks overlap once the teeth have bent by `deflection` (mm, on
-    /// the base circle of the driven gear) from their nominal position, at so many positions of the mesh cycle. `None`
-    /// where the window of the contact ratio does, or a gear has no more teeth.
+    /// The window with all pairs whose undeformed flanks overlap when the teeth have deflected by `deflection` (mm, on
+    /// the base circle of the driven gear) from their nominal position, at several positions of the mesh cycle. `None`
+    /// if the window of the contact ratio is sufficient, or if a gear has no more teeth.
     pub fn new(pair: &GearPair, options: &StaticOptions, deflection: f64) -> Option<Self> {
         let (teeth, contact) = ([pair.pinion.teeth(), pair.wheel.teeth()], &options.contact);
         let radius = [&pair.pinion, &pair.wheel][options.driven()].base_radius();
@@ -380,11 +380,10 @@ fn nearest_of(gaps: &mut [FlankGap<'_>], teeth: &[i64], first: bool) -> Option<N
 
 /// Kinematic transmission error of an unloaded pair, mm: see [`crate::StaticPosition::kinematic_transmission_error`].
 ///
-/// It needs no mesh. Zero for unmodified flanks on parallel axes.
+/// No mesh is needed. Zero for unmodified flanks on parallel axes.
 ///
 /// # Errors
-/// [`StaticError::Apart`] when no flanks face each other; [`StaticError::OutOfRange`] for offsets with which they
-/// cannot.
+/// [`StaticError::Apart`] if no flanks face each other; [`StaticError::OutOfRange`] for offsets at which they cannot.
 pub fn kinematic_transmission_error(
     pair: &GearPair,
     options: &ContactOptions,

@@ -1,7 +1,7 @@
-//! How does the loaded pair stand through a mesh cycle? Loaded tooth contact analysis.
+//! Loaded tooth contact analysis: quasi-static equilibrium of a gear pair over the mesh cycle.
 //!
-//! The driver stands at a given angle, the driven gear turns until the contact forces balance its torque. Station by
-//! station over mesh cycles, with tooth changes in between.
+//! The driver is at a given angle; the driven gear rotates until the contact forces balance its torque. This is solved
+//! station by station over mesh cycles, with tooth changes in between.
 
 mod cycle;
 mod cycle_solver;

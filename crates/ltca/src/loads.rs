@@ -1,4 +1,4 @@
-//! From a solved contact to the quantities of a station. Theory (34).
+//! Computes the quantities of a station from its solved contact. Theory (34).
 
 use contact::{
     SliceResult, Vec3, friction_work,

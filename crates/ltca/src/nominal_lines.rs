@@ -1,5 +1,5 @@
-//! Contact lines of the nominal flanks of a pair over a mesh cycle: what pairs have in common that differ in their
-//! micro-geometry and their load.
+//! Contact lines of the nominal flanks of a pair over a mesh cycle. Pairs that differ only in micro-geometry and load
+//! have them in common.
 
 use ale::Station;
 use contact::{
@@ -23,7 +23,7 @@ const BEYOND: f64 = 0.15;
 /// flanks do not face each other.
 pub(crate) type Line = Vec<f64>;
 
-/// Where nominal flanks are nearest along all contact lines, at some phases of a mesh cycle.
+/// Positions at which nominal flanks are nearest along all contact lines, at several phases of a mesh cycle.
 #[derive(Debug)]
 pub struct NominalLines {
     gears: [GearData; 2],
@@ -44,7 +44,7 @@ struct NominalLine {
 }
 
 impl NominalLines {
-    /// The lines of a pair near its path of contact. None where flanks cannot face each other.
+    /// The lines of a pair near its path of contact; empty where flanks cannot face each other.
     pub fn new(pair: &GearPair, options: &StaticOptions) -> Self {
         let at = |i: usize| Station { cycle: 0, phase: (i as f64 + 0.3) / PHASES as f64 };
         let count = if check_offsets(pair, &options.contact).is_ok() { PHASES } else { 0 };
@@ -56,7 +56,7 @@ impl NominalLines {
         }
     }
 
-    /// Whether these are the lines of another pair too: the same but for its micro-geometry, under any load.
+    /// Whether these are also the lines of another pair. It may differ only in micro-geometry and load.
     pub fn serves(&self, pair: &GearPair, options: &StaticOptions) -> bool {
         let (own, asked) = (&self.contact, &options.contact);
         let turn = |of: &ContactOptions| (of.driver, of.sense, of.offsets);

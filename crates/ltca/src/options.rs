@@ -11,11 +11,11 @@ pub struct StaticOptions {
     pub contact: ContactOptions,
     /// Torque on the driven gear, N mm, >= 0.
     pub torque: f64,
-    /// Teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
+    /// Number of teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
     pub window: Option<usize>,
-    /// Compute stress in the root fillets at every station.
+    /// Whether stress in the root fillets is computed at every station.
     pub root_stress: bool,
-    /// Find where the contact lines of slices end under load. Without it their lengths are no numbers.
+    /// Whether the ends of the loaded contact lines of slices are located. Otherwise the lengths are NaN.
     pub line_lengths: bool,
 }
 
@@ -25,24 +25,25 @@ impl StaticOptions {
         Self { contact: ContactOptions::new(pair), torque, window: None, root_stress: false, line_lengths: true }
     }
 
-    /// Options with changed contact options.
+    /// The same options with the contact options changed.
     #[must_use]
     pub fn with_contact(mut self, change: impl FnOnce(&mut ContactOptions)) -> Self {
         change(&mut self.contact);
         self
     }
 
-    /// The pinion's flanks that carry the load.
+    /// The pinion flanks that carry the load.
     pub fn side(&self) -> Side {
         self.contact.side()
     }
 
-    /// Index of the driven gear: 0 pinion, 1 wheel.
+    /// Index of the driven gear: 0 for the pinion, 1 for the wheel.
     pub fn driven(&self) -> usize {
         self.contact.driven()
     }
 
-    /// Moment of the torque about the axis of the driven gear, counter-clockwise positive, N mm: a ring turns as its pinion does, any other gear against it.
+    /// Moment of the torque about the axis of the driven gear, positive counter-clockwise, N mm. A ring rotates in the
+    /// sense of its pinion, any other gear in the opposite sense.
     pub fn moment(&self, pair: &GearPair) -> f64 {
         let driven = [&pair.pinion, &pair.wheel][self.driven()];
         -self.side().sign() * driven.sign() * self.torque
@@ -53,13 +54,13 @@ impl StaticOptions {
         self.torque / [&pair.pinion, &pair.wheel][self.driven()].base_radius().abs()
     }
 
-    /// Options of the coast flanks: the other gear drives.
+    /// Options for contact on the coast flanks: the other gear drives.
     #[must_use]
     pub fn driven_backwards(&self) -> Self {
         self.clone().with_contact(|c| c.driver = c.driver.opposite())
     }
 
-    /// Teeth of the window that the options ask of `pair`.
+    /// Number of teeth that the window of `pair` has with these options.
     pub fn window_teeth(&self, pair: &GearPair) -> usize {
         self.window.unwrap_or_else(|| teeth_needed(pair.total_contact_ratio()))
     }

@@ -1,4 +1,4 @@
-//! The contact problem of one pose, solved for forces and the turn of the driven gear.
+//! The contact problem at one pose, solved for forces and the rotation of the driven gear.
 
 use contact::{
     CandidateRows, ContactError, ElasticContact, Pose, SliceState, WarmStart,
@@ -124,13 +124,13 @@ impl PoseSolver<'_> {
         }
     }
 
-    /// Whether the forces of the last two poses tell where they go.
+    /// Whether the forces of the last two poses can be extrapolated.
     pub fn tells_forces(&self) -> bool {
         matches!(self, Self::Mesh { held: Some(rows), .. } if !rows.before[0].is_empty())
     }
 
-    /// The last solution under a moment (N mm); `left`: the change of the pose that is still to come, over that of the last step. Forces are
-    /// smooth functions of the pose and go on as it does.
+    /// The last solution under a moment (N mm). `left` is the remaining change of the pose relative to that of the last
+    /// step. Forces are smooth functions of the pose and are extrapolated with it.
     pub fn take_solution(&mut self, moment: f64, left: f64) -> Option<Box<PoseSolution>> {
         let moved = self.tells_forces();
         match self {

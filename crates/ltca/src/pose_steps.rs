@@ -1,4 +1,4 @@
-//! Steps of the pose towards equilibrium, and when they have come near enough.
+//! Steps of the pose towards equilibrium, and the criterion for the last step.
 
 /// Steps of Newton's method alone; it wants less than ten.
 const NEWTON_STEPS: usize = 15;
@@ -18,7 +18,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// load any better. The tables of the compliance are off by half as much.
 const JUMP: f64 = 2e-3;
 
-/// Smallest step (mm) that the flanks of gears this far apart (mm) resolve.
+/// Smallest step (mm) that the flanks of gears at this centre distance (mm) resolve.
 pub fn round_off_of_places(centre_distance: f64) -> f64 {
     // An angle of a few radians resolves no smaller steps.
     16.0 * f64::EPSILON * centre_distance.abs()
@@ -48,15 +48,15 @@ pub(crate) struct PoseSteps {
 }
 
 impl PoseSteps {
-    /// No step yet of a gear with a base radius (mm) in a pair with a centre distance (mm).
+    /// Start without a step, for a gear with a base radius (mm) in a pair with a centre distance (mm).
     pub fn new(radius: f64, centre_distance: f64) -> Self {
         let round_off = round_off_of_places(centre_distance);
         let (turns, step_mm, before_mm) = ([None; 2], f64::INFINITY, f64::INFINITY);
         Self { radius, round_off, taken: 0, turns, step_mm, before_mm, below: None, above: None }
     }
 
-    /// Where to go from `from`, which Newton's method would leave by `turn`; the middle where steps go to and fro, as
-    /// they do over an edge at which a slice begins or ends to touch.
+    /// Next pose after `from`, from which Newton's method would go by `turn`. It is the middle if steps alternate, as
+    /// they do at an edge at which a slice enters or leaves contact.
     pub fn next(&mut self, from: f64, turn: f64) -> f64 {
         (self.before_mm, self.step_mm) = (self.step_mm, (turn * self.radius).abs());
         self.taken += 1;
@@ -82,12 +82,13 @@ impl PoseSteps {
         self.step_mm
     }
 
-    /// What the steps after the last one come to, rad; 0 where they are no series.
+    /// Sum of the expected steps after the last one, rad; 0 if the steps do not form a series.
     pub fn remainder(&self) -> f64 {
         self.series().unwrap_or(0.0)
     }
 
-    /// The change of the pose that is still to come, over that before the last solution; 0 where steps are no series.
+    /// Remaining change of the pose, relative to the change before the last solution; 0 if the steps do not form a
+    /// series.
     pub fn share_left(&self) -> f64 {
         let before = self.turns[1].unwrap_or(f64::INFINITY);
         self.series().map_or(0.0, |rest| (rest + self.turns[0].unwrap_or(0.0)) / before)
@@ -99,8 +100,8 @@ impl PoseSteps {
         (ratio.abs() < GEOMETRIC).then(|| now * ratio / (1.0 - ratio))
     }
 
-    /// Whether no further step is needed, at an approach (mm) as large as this; `forces`: whether these can go on as the
-    /// pose does.
+    /// Whether no further step is needed, for an approach (mm) of this size. `forces` tells whether these can be
+    /// extrapolated with the pose.
     pub fn is_last(&self, approach: f64, forces: bool) -> bool {
         let remainder = if forces { REMAINDER } else { REMAINDER_OF_FORCES };
         let stays = self.step_mm > 0.5 * self.before_mm && self.step_mm.max(self.before_mm) <= ROUND_OFF * approach;
@@ -115,7 +116,7 @@ impl PoseSteps {
         (above - below).abs() * self.radius <= self.round_off
     }
 
-    /// What the pose is off by beyond round-off of places, mm, as the last steps say.
+    /// Estimated error of the pose beyond the round-off of positions, mm, from the last steps.
     pub fn left_mm(&self) -> f64 {
         let left = self.series().map_or(self.step_mm, |rest| (rest * self.radius).abs());
         (left - self.round_off).max(0.0)

@@ -1,4 +1,4 @@
-//! Results of a quasi-static analysis, position by position.
+//! Results of a quasi-static analysis at its positions.
 
 use ale::{Station, ToothWindow};
 use contact::{Site, SliceResult, Wrench};
@@ -9,23 +9,23 @@ use crate::FilletStress;
 /// One tooth pair of the window at one position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairResult {
-    /// Running number of the pair; grows by one from pair to pair in the sense of rotation, never wraps.
+    /// Running number of the pair. It increases by one from pair to pair in the sense of rotation and never wraps.
     pub pair: i64,
-    /// Pinion tooth, 0 .. z1-1.
+    /// Pinion tooth number, 0 .. z1-1.
     pub pinion_tooth: u32,
-    /// Wheel tooth, 0 .. z2-1.
+    /// Wheel tooth number, 0 .. z2-1.
     pub wheel_tooth: u32,
     /// Sum of the normal forces, N.
     pub normal_force: f64,
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
-    /// Length of this pair's contact line, mm; NaN where it was not asked for ([`crate::StaticOptions::line_lengths`]).
+    /// Length of this pair's contact line, mm; NaN if not requested ([`crate::StaticOptions::line_lengths`]).
     pub contact_line_length: f64,
-    /// Analytic length of its contact line unloaded, mm; 0 beside the path of contact.
+    /// Analytic length of the unloaded contact line, mm; 0 outside the path of contact.
     pub geometric_line_length: f64,
-    /// Slices or quadrature points that carry load.
+    /// Number of slices or quadrature points that carry load.
     pub points_in_contact: usize,
-    /// The loaded slices, ascending in z; none where points touch.
+    /// The loaded slices, ascending in z; empty for contact of points.
     pub slices: Vec<SliceResult>,
 }
 
@@ -38,86 +38,89 @@ pub struct Certificate {
     pub complementarity_residual: f64,
     /// Largest component of (force on pinion + force on wheel) / largest force.
     pub action_reaction_residual: f64,
-    /// Round-off of places over the approach of the flanks under the load: what digits of the load's work are lost.
+    /// Round-off of positions divided by the approach of the flanks under load: the share of the load's work that is
+    /// lost to round-off.
     pub round_off_share: f64,
-    /// What the pose was off by at the last step, over the approach of the flanks; above round-off where the force jumps
-    /// as the gear turns.
+    /// Error of the pose at the last step, relative to the approach of the flanks; above round-off if the force jumps
+    /// as the gear rotates.
     pub pose_residual: f64,
-    /// Newton (active-set) iterations.
+    /// Number of Newton (active-set) iterations.
     pub iterations: usize,
     /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0
-    /// where it is exact.
+    /// if it is exact.
     pub bulk_compliance_error: f64,
-    /// Force on the teeth at the window's ends relative to the total: how close the window is to being too small.
+    /// Force on the teeth at the ends of the window relative to the total force. It shows how close the window is to
+    /// being too small.
     pub window_edge_load: f64,
 }
 
-/// Everything known of one solved position.
+/// All results at one position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StaticPosition {
-    /// Pinion angle, rad, in the sense of rotation, from the middle position of pair 0.
+    /// Pinion angle, rad, in the sense of rotation, measured from the middle position of pair 0.
     pub pinion_angle: f64,
     /// Mesh phase, 0 .. 1.
     pub mesh_phase: f64,
-    /// Transmission error, mm on the transverse line of action; positive when the driven gear lags.
+    /// Transmission error, mm on the transverse line of action; positive if the driven gear lags.
     pub transmission_error: f64,
-    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the
-    /// transmission error does, from where the unmodified flanks would touch with the axes parallel through the gears'
+    /// Transmission error without load, mm, caused only by micro-geometry and misalignment. Like the transmission error
+    /// it is counted from the position at which the unmodified flanks would touch with parallel axes through the gears'
     /// centres.
     pub kinematic_transmission_error: f64,
     /// F_bt / (te - kinematic te), N/mm; NaN without load.
     pub secant_stiffness: f64,
     /// d F_bt / d te, N/mm.
     pub tangent_stiffness: f64,
-    /// Sum over the pairs, mm; NaN where it was not asked for.
+    /// Total length of the contact lines of all pairs, mm; NaN if not requested.
     pub contact_line_length: f64,
-    /// Analytic length of the unloaded pair's contact lines, mm.
+    /// Analytic length of the contact lines of the unloaded pair, mm.
     pub geometric_line_length: f64,
     /// Pairs of the window, ascending.
     pub pairs: Vec<PairResult>,
-    /// Mesh force on pinion and wheel.
+    /// Mesh force and moment on pinion and wheel.
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
-    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty
-    /// when not asked for.
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty if
+    /// not requested.
     pub root_stress: [Vec<FilletStress>; 2],
-    /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
+    /// Friction work per radian of pinion rotation, N mm, >= 0. Multiplied by the pinion's speed it is the power loss.
     pub friction_work: f64,
-    /// Sum over the contact of normal force times sliding per radian of pinion rotation, N mm: what a coefficient of
-    /// friction of 1 would take of these forces. Known without friction as well.
+    /// Normal force times sliding per radian of pinion rotation, summed over the contact, N mm: the friction work of
+    /// these forces for a coefficient of friction of 1. It is computed without friction as well.
     pub sliding_work: f64,
     /// Elastic energy of both gears and the contact, N mm.
     pub strain_energy: f64,
-    /// Tooth changes since the start of the run.
+    /// Number of tooth changes since the start of the run.
     pub tooth_changes: u64,
     /// Residuals of the solution.
     pub certificate: Certificate,
 }
 
 impl StaticPosition {
-    /// Largest contact pressure of slices at end faces and tip edges, MPa; 0 without any, and of points.
+    /// Largest contact pressure of slices at end faces and tip edges, MPa; 0 if there are none, and for contact of
+    /// points.
     pub fn max_edge_pressure(&self) -> f64 {
         let slices = self.pairs.iter().flat_map(|pair| &pair.slices);
         slices.filter(|s| s.site != Site::Flank).map(|s| s.pressure).fold(0.0, f64::max)
     }
 }
 
-/// A whole quasi-static run.
+/// Results of a whole quasi-static run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct StaticHistory {
     /// Positions in the order of the rotation.
     pub positions: Vec<StaticPosition>,
-    /// Tooth changes on the way, in their order.
+    /// Tooth changes during the run, in order.
     pub tooth_changes: Vec<ToothChangeRecord>,
-    /// What the user should know: neglected, doubtful, adjusted.
+    /// Remarks for the user: neglected effects, doubtful results, adjusted inputs.
     pub remarks: Vec<answer::Remark>,
-    /// The same mesh cycles under other torques, where they are asked for: loads over a life.
+    /// The same mesh cycles under other torques, if requested for a load spectrum.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub under_loads: Vec<LoadCycle>,
 }
 
-/// Mesh cycles under another torque than that of their history.
+/// Mesh cycles under a torque that differs from that of their history.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadCycle {
     /// Torque on the driven gear, N mm, above 0.
@@ -126,7 +129,7 @@ pub struct LoadCycle {
     pub positions: Vec<StaticPosition>,
 }
 
-/// A tooth change as it happened: the same station solved with the window before and the one after.
+/// A tooth change: the same station solved with the windows before and after it.
 #[derive(Debug, Clone)]
 pub struct ToothChange {
     /// Result with the old window.
@@ -137,13 +140,13 @@ pub struct ToothChange {
     pub window: ToothWindow,
 }
 
-/// Station of a tooth change, and what it changed of the solution there: nothing but round-off, for the outgoing teeth
-/// are free of load.
+/// Station of a tooth change and the resulting change of the solution there. This change is only round-off, because the
+/// outgoing teeth are unloaded.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ToothChangeRecord {
     /// Mesh cycles since the start.
     pub mesh_cycles: f64,
-    /// Pinion angle, rad, as that of a position.
+    /// Pinion angle, rad, defined as that of a position.
     pub pinion_angle: f64,
     /// Outgoing teeth of pinion and wheel.
     pub outgoing: [u32; 2],
@@ -156,7 +159,7 @@ pub struct ToothChangeRecord {
 }
 
 impl ToothChange {
-    /// Record of the change at a station: what it changed of the solution.
+    /// Record of the change at a station, with the resulting change of the solution.
     pub fn record(&self, station: Station) -> ToothChangeRecord {
         let Self { before, after, .. } = self;
         let only_in = |these: &StaticPosition, those: &StaticPosition| {

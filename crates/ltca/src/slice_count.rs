@@ -1,9 +1,8 @@
-//! Number of slices that a pair needs under its load, and the errors of the spring model with that number.
-//! Theory (21c).
+//! Number of slices that a pair needs under its load, and the errors of a spring model with that number. Theory (21c).
 //!
-//! The count is chosen on a cheap model: a row of equal springs along every contact line, over the exact gaps of the
-//! flanks at some phases of a mesh cycle. When it is cut into slices, the model shows the same errors as the contact:
-//! where load ends within a slice, at tip edges and end faces, near crowning, relief or misalignment.
+//! The number is chosen with a cheap model: a row of equal springs along every contact line, over the exact gaps of the
+//! flanks at several phases of a mesh cycle. Divided into slices, this model has the same errors as the contact: where
+//! load ends within a slice, at tip edges and end faces, near crowning, relief or misalignment.
 
 use geometry::GearPair;
 
@@ -20,54 +19,55 @@ const SWING: f64 = 0.025;
 const LEAST_SWING: f64 = 0.01;
 const PEAK: f64 = 0.04;
 
-/// How many slices a pair asks for under its load, and what the springs that say so are off by with them.
+/// Number of slices that a pair needs under its load, and the errors of the spring model with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliceCount {
-    /// Slices over the face width.
+    /// Number of slices over the face width.
     pub count: usize,
-    /// Errors of the springs with as many.
+    /// Errors of the springs with this number of slices.
     pub errors: SpringErrors,
 }
 
-/// Errors of a row of springs that is cut into slices, relative.
+/// Relative errors of a row of springs that is divided into slices.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SpringErrors {
     /// Error of the mean approach.
     pub mean: f64,
-    /// Error of the approach's peak to peak, relative to it, or to a hundredth of the mean where that is larger.
+    /// Error of the peak-to-peak approach, relative to its peak to peak or, if larger, to a hundredth of the mean.
     pub swing: f64,
     /// Error of the largest line load.
     pub peak: f64,
 }
 
 impl SpringErrors {
-    /// Whether any of them is more than `times` what a chosen count may have.
+    /// Whether any error is more than `times` the error permitted for a chosen number.
     pub fn exceed(&self, times: f64) -> bool {
         self.mean > times * MEAN || self.swing > times * SWING || self.peak > times * PEAK
     }
 }
 
-/// The least of the counts tried with which a row of springs over the pair's gaps is good to 1.25 % in the mean
-/// approach, 2.5 % in its peak to peak and 4 % in the largest line load; the largest one where none is.
+/// The smallest number of slices, of those tried, with which a row of springs over the pair's gaps is accurate to 1.25
+/// % in the mean approach, 2.5 % in its peak to peak and 4 % in the largest line load; the largest number tried if none
+/// is.
 ///
 /// ```text
 /// sum over the contact lines of k h max(0, delta - g_i) = F_bn cos b_b,   h = b / n
 /// ```
 /// k is a typical mesh stiffness, g the gap of the flanks, with micro-geometry and misalignment, at the position of
-/// zero transmission error; both sides of a cut are solved exactly at eight phases. Without torque, or where the flanks
-/// face each other nowhere, the first count.
+/// zero transmission error. Both the divided and the undivided row are solved exactly at eight phases. Without torque,
+/// or if the flanks face each other nowhere, the result is the first number.
 pub fn slices_needed(pair: &GearPair, options: &StaticOptions) -> SliceCount {
     slices_needed_on(&NominalLines::new(pair, options), pair, options)
 }
 
-/// The same on nominal contact lines that serve the pair ([`NominalLines::serves`]).
+/// The same for nominal contact lines that serve the pair ([`NominalLines::serves`]).
 pub fn slices_needed_on(lines: &NominalLines, pair: &GearPair, options: &StaticOptions) -> SliceCount {
     let springs = Springs::new(lines, pair, options);
     let of = |count: usize| SliceCount { count, errors: springs.errors(count) };
     COUNTS.into_iter().map(of).find(|c| !c.errors.exceed(1.0)).unwrap_or_else(|| of(COUNTS[COUNTS.len() - 1]))
 }
 
-/// What the springs lose with any count of slices: see [`slices_needed`].
+/// Errors of the springs with a given number of slices: see [`slices_needed`].
 pub fn slice_errors(pair: &GearPair, options: &StaticOptions, count: usize) -> SpringErrors {
     Springs::new(&NominalLines::new(pair, options), pair, options).errors(count)
 }

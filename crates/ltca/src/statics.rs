@@ -1,4 +1,4 @@
-//! Station by station through mesh cycles, with tooth changes.
+//! Solves mesh cycles station by station, with tooth changes.
 
 use std::{ops::ControlFlow, sync::Arc};
 
@@ -24,18 +24,18 @@ pub struct StaticModel {
 }
 
 impl StaticModel {
-    /// First tooth of each gear's window at the start of a run: reduce the gears there.
+    /// First tooth of each gear's window at the start of a run. Reduce the gears at these teeth.
     ///
     /// # Errors
-    /// [`StaticError::Window`] when the window is wider than a gear.
+    /// [`StaticError::Window`] if the window has more teeth than a gear.
     pub fn first_teeth(pair: &GearPair, options: &StaticOptions) -> Result<[u32; 2], StaticError> {
         Ok(first_window(pair, options)?.window().first_teeth())
     }
 
-    /// A model at the start of cycle 0. Models may share their gears, and be solved side by side.
+    /// A model at the start of cycle 0. Several models may share their gears and be solved in parallel.
     ///
     /// # Errors
-    /// [`StaticError`] when a value has no meaning, or meshes and geometry do not fit.
+    /// [`StaticError`] if a value is out of range, or if meshes and geometry do not match.
     pub fn new(
         pair: GearPair,
         gears: impl Into<Arc<[ElasticGear; 2]>>,
@@ -44,14 +44,14 @@ impl StaticModel {
         Self::with_known(pair, gears.into(), options, (None, None))
     }
 
-    /// A model at the start of cycle 0 of the same gears with another micro-geometry, torque, friction or misalignment, or
-    /// other slices.
+    /// A model at the start of cycle 0 with the same gears and other micro-geometry, torque, friction, misalignment or
+    /// slices.
     ///
-    /// Matrices are shared, and so are the tables of the contact wherever `options` asks for the same. The results are
+    /// The models share the matrices, and the tables of the contact if `options` need the same ones. The results are
     /// those of [`StaticModel::new`], bit by bit.
     ///
     /// # Errors
-    /// As [`StaticModel::new`].
+    /// The errors of [`StaticModel::new`].
     pub fn modified(&self, pair: GearPair, options: StaticOptions) -> Result<Self, StaticError> {
         let (own, asked) = (&self.options.contact, &options.contact);
         let ContactOptions { friction, offsets, slices, .. } = *asked;
@@ -66,10 +66,10 @@ impl StaticModel {
         Self::with_known(pair, Arc::clone(&self.gears), options, (known, root))
     }
 
-    /// The same pair under another torque, N mm: [`StaticModel::modified`] without another difference.
+    /// The same pair under another torque, N mm: [`StaticModel::modified`] without any other difference.
     ///
     /// # Errors
-    /// As [`StaticModel::new`].
+    /// The errors of [`StaticModel::new`].
     pub fn under_torque(&self, torque: f64) -> Result<Self, StaticError> {
         self.modified(self.pair.clone(), StaticOptions { torque, ..self.options.clone() })
     }
@@ -126,7 +126,7 @@ impl StaticModel {
         (CycleInputs { pair, gears, options, root: root.as_deref() }, solver)
     }
 
-    /// The pair.
+    /// The gear pair.
     pub fn pair(&self) -> &GearPair {
         &self.pair
     }
@@ -136,22 +136,22 @@ impl StaticModel {
         &self.gears
     }
 
-    /// The gears back, reduced as they are: for a model of the same meshes with another torque or micro-geometry.
+    /// Returns the reduced gears, for a model of the same meshes with another torque or micro-geometry.
     pub fn into_gears(self) -> Arc<[ElasticGear; 2]> {
         self.gears
     }
 
-    /// The options.
+    /// Options of the model.
     pub fn options(&self) -> &StaticOptions {
         &self.options
     }
 
-    /// The window as it stands.
+    /// The current window.
     pub fn window(&self) -> &ToothWindow {
         self.solver.window.window()
     }
 
-    /// Flanks and matrices of the window as it stands.
+    /// Flanks and matrices of the current window.
     pub fn contact_set(&self) -> &ContactSet {
         &self.solver.contact.set
     }
@@ -161,60 +161,60 @@ impl StaticModel {
         self.solver.last.as_deref()
     }
 
-    /// Makes the maps to the root stress of the window as it stands, which the first position would make: most of the
-    /// time until it comes. Nothing without root stress.
+    /// Computes the maps to the root stress of the current window. Otherwise the first position computes them, which
+    /// takes most of its time. Does nothing without root stress.
     ///
     /// # Errors
-    /// [`StaticError`] as of the first position.
+    /// The [`StaticError`] that the first position would return.
     pub fn prepare_root_stress(&self) -> Result<(), StaticError> {
         let Some(root) = &self.root else { return Ok(()) };
         let inputs = CycleInputs { pair: &self.pair, gears: &self.gears, options: &self.options, root: Some(root) };
         self.solver.prepare_root_stress(&inputs)
     }
 
-    /// Solves a station with the window as it stands.
+    /// Solves a station with the current window.
     ///
     /// # Errors
-    /// [`StaticError`], among them [`ale::AleError::Starved`] when a pair outside the window would touch.
+    /// [`StaticError`], including [`ale::AleError::Starved`] if a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
         let (inputs, solver) = self.split();
         solver.solve(&inputs, station)
     }
 
-    /// Moves the window one tooth on at the station just solved, and solves it again.
+    /// Moves the window one tooth further at the station just solved, and solves it again.
     ///
     /// # Errors
-    /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
+    /// [`StaticError::Window`] if the outgoing tooth carries load; no load is ever dropped.
     pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
         let (inputs, solver) = self.split();
         solver.change(&inputs, before, station)
     }
 
-    /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
-    /// outgoing tooth is free of load. `seen` gets every change.
+    /// Solves a station and makes the tooth changes that are due: as soon as another window is nearer to the middle and
+    /// the outgoing tooth is unloaded. `seen` receives every change.
     ///
     /// # Errors
-    /// [`StaticError`].
+    /// [`StaticError`] if the station cannot be solved.
     pub fn advance(&mut self, station: Station, seen: impl FnMut(&ToothChange)) -> Result<StaticPosition, StaticError> {
         let (inputs, solver) = self.split();
         solver.advance(&inputs, station, seen)
     }
 
-    /// The tooth changes that are due at a station: one that closes a mesh cycle belongs to it, as the one that opens
-    /// it belongs to the cycle before.
+    /// The tooth changes that are due at a station. A change at the end of a mesh cycle belongs to that cycle; one at
+    /// its start belongs to the preceding cycle.
     ///
     /// # Errors
-    /// [`StaticError`].
+    /// [`StaticError`] if the station cannot be solved.
     pub fn tooth_changes_at(&mut self, station: Station) -> Result<Vec<ToothChangeRecord>, StaticError> {
         let mut made = Vec::new();
         self.advance(station, |change| made.push(change.record(station)))?;
         Ok(made)
     }
 
-    /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told
-    /// of each result in order (for progress), the model standing where that result was found.
+    /// Runs `cycles` mesh cycles of `positions` stations each from the start, whatever the current state of the model.
+    /// `seen` is called with each result in order (for progress) while the model is in the state of that result.
     ///
-    /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are
+    /// Slices on cyclic gears are solved in groups of stations in parallel on all cores (`cycle.rs`). The results are
     /// the same for any number of threads.
     ///
     /// # Errors
@@ -231,8 +231,8 @@ impl StaticModel {
         })
     }
 
-    /// Solves mesh cycles as [`StaticModel::run`] does. `seen` may end the run; the history has the positions solved
-    /// until then.
+    /// Solves mesh cycles like [`StaticModel::run`]. `seen` may end the run; the history then has the positions solved
+    /// so far.
     ///
     /// # Errors
     /// [`StaticError`] of the first station that cannot be solved.

@@ -1,4 +1,4 @@
-//! A pair of gears in a window: input of a station's solution and of its results.
+//! A pair of gears in a window: the input of a station's solution and of its results.
 
 use ale::ToothWindow;
 use geometry::GearPair;
@@ -10,7 +10,7 @@ use reduction::ElasticGear;
 /// A pair of elastic gears with its current window.
 #[derive(Debug, Clone, Copy)]
 pub struct WindowedPair<'a> {
-    /// The pair.
+    /// The gear pair.
     pub pair: &'a GearPair,
     /// Elastic gears of the pair.
     pub gears: &'a [ElasticGear; 2],

@@ -128,7 +128,7 @@ pub enum LumpedError {
 }
 
 impl LumpedError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             Self::OutOfRange { .. } => {

@@ -1,4 +1,4 @@
-//! A block of elements of any kind: the body of patch tests, cantilevers and other small models.
+//! A block of elements of any kind, for patch tests, cantilevers and other small models.
 
 use std::collections::BTreeMap;
 

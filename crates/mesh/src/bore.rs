@@ -1,4 +1,5 @@
-//! The bore of a gear: the part of its width that is held, nodes that do not move, weights of its means.
+//! The bore of a gear: the part of its width that is held, the nodes that do not move, the weights of its mean
+//! displacements.
 
 use std::collections::BTreeMap;
 
@@ -7,11 +8,11 @@ use nalgebra::Vector3;
 use crate::{BoreCoupling, Face, MeshError, MeshedGear, SurfaceGroup};
 
 impl MeshedGear {
-    /// This gear, held by those faces of its bore alone that lie between two heights `from` <= z <= `to` (mm) as a
-    /// whole. All of its bore: the same mesh.
+    /// This gear, held only by the faces of its bore that lie entirely between two heights `from` <= z <= `to` (mm). A
+    /// range that contains the whole bore leaves the mesh unchanged.
     ///
     /// # Errors
-    /// [`MeshError::NotHeld`] where no face does.
+    /// [`MeshError::NotHeld`] if no face of the bore lies in the range.
     pub fn held_between(self, [from, to]: [f64; 2]) -> Result<Self, MeshError> {
         let heights = || self.bore.faces.iter().flat_map(Face::nodes).map(|&n| self.mesh.nodes[n as usize][2]);
         let [low, high] = heights().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(z), b.max(z)]);
@@ -32,7 +33,7 @@ impl MeshedGear {
             .numbered(self.clockwise))
     }
 
-    /// This gear with another coupling of its bore.
+    /// This gear with another coupling of its bore to the shaft.
     pub fn coupled(mut self, coupling: BoreCoupling) -> Self {
         self.coupling = coupling;
         self
@@ -43,7 +44,8 @@ impl MeshedGear {
         self.coupling
     }
 
-    /// Nodes that do not move in the gear's frame, ascending: those of a rigid bore, none of one held by its means.
+    /// Nodes that do not move in the gear's frame, ascending: all held nodes of a rigid bore, none for a distributing
+    /// coupling.
     pub fn held_nodes(&self) -> &[u32] {
         match self.coupling {
             BoreCoupling::Kinematic => self.bore_nodes(),
@@ -51,8 +53,8 @@ impl MeshedGear {
         }
     }
 
-    /// Integrals of the shape functions over the held faces, mm^2, by node, ascending: what area-weighted means are
-    /// made of. Those of corners of quadratic faces are negative.
+    /// Integrals of the shape functions over the held faces, mm^2, by node, ascending. Area-weighted means are computed
+    /// with them. The integrals of corner nodes of quadratic faces are negative.
     pub fn bore_weights(&self) -> Vec<(u32, f64)> {
         let mut all: BTreeMap<u32, f64> = BTreeMap::new();
         let (mut n, mut dn) = ([0.0; 9], [[0.0; 2]; 9]);

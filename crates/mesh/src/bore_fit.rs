@@ -1,4 +1,4 @@
-//! Finds the bore of a mesh that names none: the innermost cylinder about z that faces the axis.
+//! Finds the bore of a mesh without a bore group: the innermost cylinder about z that faces the axis.
 
 use geometry::Vec3;
 
@@ -10,8 +10,8 @@ const LEAST_COSINE: f64 = 0.866;
 const ROUND: f64 = 1e-3;
 
 impl Mesh {
-    /// Smallest and largest radius (mm) of the nodes of the bore: of the boundary faces that face the z axis and have all
-    /// corners on the innermost cylinder of such faces. `None` where nothing faces the axis, as in a solid gear.
+    /// Smallest and largest radius (mm) of the nodes of the bore. The bore consists of the boundary faces that face the
+    /// z axis and have all corners on the innermost cylinder of such faces. `None` if no face does, as in a solid gear.
     pub fn bore_radii(&self) -> Option<[f64; 2]> {
         let table = FaceTable::new(self);
         let radius = |n: u32| {

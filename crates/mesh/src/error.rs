@@ -1,79 +1,79 @@
-//! What can go wrong with a mesh.
+//! Errors of this crate.
 
 use std::path::PathBuf;
 
 use crate::msh::MshError;
 use crate::numbered::folded;
 
-/// A mesh that cannot be read, written or understood as a gear.
+/// A mesh that cannot be read, written or interpreted as a gear.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
     /// The file cannot be opened or read.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why not.
+        /// Cause of the failure.
         source: std::io::Error,
     },
     /// The file cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why not.
+        /// Cause of the failure.
         source: std::io::Error,
     },
-    /// The file is not a mesh file as it should be.
+    /// The content of the file is not a valid mesh.
     #[error(transparent)]
     Msh(Box<MshError>),
-    /// Lists of a mesh that do not fit together.
+    /// Lists of a mesh that contradict each other.
     #[error("the mesh is inconsistent: {what}")]
     Inconsistent {
-        /// What does not fit.
+        /// Description of the contradiction.
         what: String,
     },
     /// A tag that the file format cannot hold.
     #[error("tag {tag} does not fit into format 2.2 (largest: {})", i32::MAX)]
     TagTooLarge {
-        /// The tag, or the largest that would be needed.
+        /// The tag, or the largest tag that would be needed.
         tag: u64,
     },
-    /// A part of the gear that no physical group names.
+    /// A part of the gear for which there is no physical group.
     #[error("no physical group `{wanted}`; the mesh has {}", list(found))]
     MissingGroup {
-        /// Name of the group, `<k>` standing for a tooth number.
+        /// Name of the group; `<k>` stands for a tooth number.
         wanted: String,
-        /// Names of the groups of dimension 2 in the mesh.
+        /// Names of the two-dimensional groups in the mesh.
         found: Vec<String>,
     },
-    /// A pattern of group names without the place for the tooth number.
+    /// A pattern of group names without a placeholder for the tooth number.
     #[error("the group name `{pattern}` must contain {{k}} where the tooth number stands")]
     NoToothNumber {
         /// The pattern.
         pattern: String,
     },
-    /// Two groups that name one flank of one tooth.
+    /// Two groups that name the same flank of the same tooth.
     #[error("groups `{first}` and `{second}` name the same flank: tooth {tooth} of {teeth}")]
     SameTooth {
-        /// Name of the one group.
+        /// Name of the first group.
         first: String,
-        /// Name of the other.
+        /// Name of the second group.
         second: String,
-        /// Tooth they name, 0..teeth.
+        /// Number of the tooth, 0..teeth.
         tooth: u32,
         /// Number of teeth of the gear.
         teeth: u32,
     },
-    /// A face of a group that is no boundary face of the body.
+    /// A face of a group that is not a boundary face of the body.
     #[error("group `{group}`: face with nodes {nodes:?} {what}")]
     NotOnBoundary {
         /// Name of the group.
         group: String,
         /// Corner nodes of the face, by tag.
         nodes: Vec<u64>,
-        /// What they are instead.
+        /// What the faces are instead.
         what: &'static str,
     },
     /// The flanks of the given gear are not in the mesh.
@@ -82,100 +82,100 @@ pub enum MeshError {
         100.0 * coverage
     )]
     NoFlanks {
-        /// Part of the area of the flanks found, 0..1.
+        /// Share of the area of the flanks that was found, 0..1.
         coverage: f64,
-        /// Distance allowed, mm.
+        /// Tolerance for the distance, mm.
         tolerance_mm: f64,
     },
-    /// The flanks are there, but the teeth are thicker or thinner.
+    /// The flanks are there, but the teeth are thicker or thinner than those of the gear.
     #[error("the teeth of the mesh are {thicker_mm:.4} mm thicker than the gear's, measured along the base tangent")]
     ToothThickness {
-        /// Both flanks together, mm; negative when thinner.
+        /// Difference of thickness, both flanks together, mm; negative if thinner.
         thicker_mm: f64,
     },
-    /// The gear is not in the middle.
+    /// The mid-face of the mesh is not at z = 0.
     #[error("mid-face of the mesh is at z = {z_mm:.4} mm, not at 0")]
     MidFace {
-        /// Mid-face of the mesh, mm.
+        /// Height of the mesh's mid-face, mm.
         z_mm: f64,
     },
-    /// No boundary face on the bore cylinder.
+    /// There is no boundary face on the bore cylinder.
     #[error("no boundary face has the bore radius {wanted_mm:.4} mm; the smallest radius is {found_mm:.4} mm")]
     NoBore {
         /// Radius of the gear's bore, mm.
         wanted_mm: f64,
-        /// Smallest radius of a node, mm.
+        /// Smallest radius of any node, mm.
         found_mm: f64,
     },
-    /// No face of the bore lies on the part that is to be held.
+    /// No face of the bore lies in the range that is to be held.
     #[error(
         "no face of the bore lies between z = {from_mm:.4} and {to_mm:.4} mm as a whole; the bore reaches from \
          {low_mm:.4} to {high_mm:.4} mm"
     )]
     NotHeld {
-        /// Where it is to be held from, mm.
+        /// Lower end of the held range, mm.
         from_mm: f64,
-        /// Up to where, mm.
+        /// Upper end of the held range, mm.
         to_mm: f64,
-        /// Lowest place of the bore, mm.
+        /// Lowest height of the bore, mm.
         low_mm: f64,
-        /// Highest place, mm.
+        /// Greatest height of the bore, mm.
         high_mm: f64,
     },
-    /// Only a sector between two cuts can be repeated.
+    /// The mesh is not a sector with two cuts, and only such a sector can be repeated.
     #[error("the mesh is no periodic sector: it has no cuts")]
     NoCuts,
-    /// A node of one cut that meets none of the other.
+    /// A node of one cut that coincides with no node of the other.
     #[error(
         "node {node} of `{cut}`, turned by {angle_deg:.6} deg, meets no node of `{other}`: \
          the nearest is {distance_mm:.3e} mm away, allowed is {tolerance_mm:.1e} mm"
     )]
     CutsApart {
-        /// The node, by tag.
+        /// Tag of the node.
         node: u64,
-        /// Name of its cut.
+        /// Name of the cut that has the node.
         cut: String,
         /// Name of the other cut.
         other: String,
-        /// Angle of the sector, deg; negative from the second cut to the first.
+        /// Angle of the sector, deg; negative if measured from the second cut to the first.
         angle_deg: f64,
         /// Distance from the nearest node of the other cut, mm.
         distance_mm: f64,
-        /// Distance allowed, mm.
+        /// Tolerance for the distance, mm.
         tolerance_mm: f64,
     },
-    /// A face of one cut that meets no face of the other though its nodes meet nodes.
+    /// A face of one cut that coincides with no face of the other, although its nodes coincide.
     #[error("the face of `{cut}` with nodes {nodes:?} meets no face of `{other}`, though its nodes do")]
     CutFaces {
-        /// Name of its cut.
+        /// Name of the cut that has the face.
         cut: String,
         /// Name of the other cut.
         other: String,
         /// Corner nodes of the face, by tag.
         nodes: Vec<u64>,
     },
-    /// Parts of the cut faces that no group holds.
+    /// Parts of the cut faces that belong to no group.
     #[error(
         "node {node}, turned by one tooth, meets node {other}, but is not in `{}`: `{}` and `{}` hold only a part of the \
          cut faces", cuts[0], cuts[0], cuts[1]
     )]
     CutInPart {
-        /// The node on the first cut, by tag.
+        /// Tag of the node on the first cut.
         node: u64,
-        /// The node on the second cut, by tag.
+        /// Tag of the node on the second cut.
         other: u64,
         /// Names of the cuts.
         cuts: [String; 2],
     },
-    /// A node off the axis on both cuts.
+    /// A node that lies on both cuts, but not on the axis.
     #[error("the two cuts of the sector share a node off the axis")]
     CutsCross,
-    /// More nodes than anything here could solve.
+    /// The whole gear would have more nodes than can be solved.
     #[error("the whole gear would have {nodes} nodes: at most {most} are made")]
     TooLarge {
-        /// Nodes of the whole gear.
+        /// Number of nodes of the whole gear.
         nodes: u64,
-        /// Limit.
+        /// Largest number of nodes.
         most: u64,
     },
 }

@@ -1,4 +1,4 @@
-//! Faces of the volume elements: which bound the body, and who owns them.
+//! Faces of the volume elements: which of them bound the body, and which elements they belong to.
 
 use rayon::prelude::*;
 
@@ -6,7 +6,7 @@ use crate::{Face, Mesh, model::corner_key};
 
 /// All faces of all volume elements, sorted by their corners.
 ///
-/// A face of one element bounds the body, a face of two lies inside.
+/// A face of one element lies on the boundary of the body; a face of two elements lies inside.
 #[derive(Debug, Clone)]
 pub struct FaceTable {
     entries: Vec<Entry>,
@@ -19,7 +19,7 @@ struct Entry {
     owner: FaceOwner,
 }
 
-/// Which face of which element.
+/// A face of an element: the element and the number of the face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FaceOwner {
     /// Number of the element in its block.
@@ -31,7 +31,7 @@ pub struct FaceOwner {
 }
 
 impl FaceOwner {
-    /// The face in global node numbers, its normal pointing out of the element.
+    /// The face in global node numbers; its normal points out of the element.
     pub fn face(&self, mesh: &Mesh) -> Face {
         let block = &mesh.blocks[usize::from(self.block)];
         let (kind, local) = block.kind.faces()[usize::from(self.local)];
@@ -50,7 +50,7 @@ impl FaceOwner {
 }
 
 impl FaceTable {
-    /// The faces of a mesh. n log n in the number of elements.
+    /// All faces of a mesh. The cost is n log n in the number of elements.
     pub fn new(mesh: &Mesh) -> Self {
         let count: usize = mesh.blocks.iter().map(|b| b.len() * b.kind.faces().len()).sum();
         let mut entries = Vec::with_capacity(count);
@@ -70,8 +70,8 @@ impl FaceTable {
         Self { entries }
     }
 
-    /// The elements that have a face with these corners (see [`Face::corner_key`]):
-    /// none, one on the boundary, two inside.
+    /// The elements that have a face with these corners (see [`Face::corner_key`]): none, one for a boundary face, two
+    /// for an inner face.
     pub fn owners(&self, corner_key: [u32; 4]) -> impl ExactSizeIterator<Item = FaceOwner> + '_ {
         let first = self.entries.partition_point(|e| e.corners < corner_key);
         let count = self.entries[first..].iter().take_while(|e| e.corners == corner_key).count();
@@ -94,7 +94,7 @@ impl FaceTable {
         })
     }
 
-    /// Faces of more than two elements: two bodies in one place, or elements turned inside out.
+    /// Faces of more than two elements: two bodies overlap, or elements are turned inside out.
     pub fn crowded(&self) -> Vec<FaceOwner> {
         self.shared().filter(|owners| owners.len() > 2).map(|owners| owners[0].owner).collect()
     }

@@ -1,4 +1,4 @@
-//! Finds flanks in a mesh without named flanks, by the involute helicoids of the gear it should be.
+//! Finds flanks in a mesh without named flanks by fitting the involute helicoids of the expected gear.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,8 @@ use geometry::{Flank, Gear, Side, Vec3};
 
 use crate::{Face, FaceTable, GroupNames, Mesh, MeshError, MeshedGear, SurfaceGroup};
 
-/// Nodes may lie this many modules off their flank: more than any micro-geometry, far less than a tooth.
+/// Default tolerance for the distance of nodes from their flank, in modules: more than any micro-geometry, far less
+/// than a tooth.
 pub const DEFAULT_TOLERANCE_MODULES: f64 = 0.01;
 
 /// Least cosine between the normals of face and helicoid (30 deg).
@@ -15,20 +16,20 @@ const LEAST_COSINE: f64 = 0.866;
 /// Least part of a flank's area that must be found for the fit to count.
 const LEAST_COVERAGE: f64 = 0.5;
 
-/// What a fit found.
+/// Result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankFit {
-    /// The mesh with its parts, tooth 0 on +x.
+    /// The mesh with its parts; tooth 0 is on +x.
     pub gear: MeshedGear,
-    /// Angle by which the mesh stood off, rad; it has been turned back by it. 0 when within the tolerance.
+    /// Angle by which the mesh was rotated, rad; the mesh has been rotated back by it. 0 if within the tolerance.
     pub phase: f64,
-    /// Farthest that a node was allowed to lie off a flank, mm.
+    /// Tolerance for the distance of a node from a flank, mm.
     pub tolerance: f64,
-    /// Each flank found, by tooth and side.
+    /// Deviations of all flanks that were found, by tooth and side.
     pub flanks: Vec<FlankDeviation>,
 }
 
-/// How well the nodes of one flank lie on its helicoid.
+/// Deviation of the nodes of one flank from its helicoid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankDeviation {
     /// Tooth, 0..z.
@@ -41,16 +42,16 @@ pub struct FlankDeviation {
     pub rms: f64,
     /// Largest distance of a node, mm.
     pub largest: f64,
-    /// Part of the flank's area between form and tip circle that the faces cover.
+    /// Share of the flank's area between form circle and tip circle that the faces cover.
     pub coverage: f64,
 }
 
 impl MeshedGear {
-    /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
-    /// ([`FlankFit`] with the default tolerance, also returned).
+    /// Finds the parts of `gear` in a mesh. If any flank is named, the names are used; otherwise the helicoids are
+    /// fitted with the default tolerance, and the [`FlankFit`] is returned as well.
     ///
     /// # Errors
-    /// Those of [`MeshedGear::from_groups`] and [`FlankFit::new`].
+    /// The errors of [`MeshedGear::from_groups`] and [`FlankFit::new`].
     pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
         names.check()?;
         if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
@@ -66,14 +67,15 @@ impl MeshedGear {
 impl FlankFit {
     /// Finds the flanks of `gear` in a mesh.
     ///
-    /// A boundary face belongs to the flank of tooth k when all its nodes lie within `tolerance` (mm) of that helicoid,
-    /// between form and tip circle, and its normal agrees within 30 deg. The bore is the group of that name, or the
-    /// boundary faces on the bore cylinder; cuts are known by their groups alone. A mesh turned about z is found out,
-    /// by the angle at which most nodes lie on left and on right flanks alike, and turned back.
+    /// A boundary face belongs to the flank of tooth k if all its nodes lie within `tolerance` (mm) of that helicoid,
+    /// between form circle and tip circle, and if its normal agrees within 30 deg. The bore is the group of that name,
+    /// otherwise the boundary faces on the bore cylinder. Cuts are found only by their groups. If the mesh is rotated
+    /// about z, the angle is determined (the one at which most nodes lie on left and on right flanks) and the mesh is
+    /// rotated back.
     ///
     /// # Errors
-    /// [`MeshError::NoFlanks`], [`MeshError::ToothThickness`], [`MeshError::MidFace`], [`MeshError::NoBore`] when the
-    /// mesh is not of this gear; errors of the named groups as [`MeshedGear::from_groups`].
+    /// [`MeshError::NoFlanks`], [`MeshError::ToothThickness`], [`MeshError::MidFace`], [`MeshError::NoBore`] if the
+    /// mesh is not a mesh of this gear; errors of named groups as in [`MeshedGear::from_groups`].
     pub fn new(mut mesh: Mesh, gear: &Gear, names: &GroupNames, tolerance: f64) -> Result<Self, MeshError> {
         check_mid_face(&mesh, tolerance)?;
         let table = FaceTable::new(&mesh);

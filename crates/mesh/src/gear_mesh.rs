@@ -1,4 +1,4 @@
-//! A mesh of which the parts of the gear are known.
+//! A mesh with known parts of the gear.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use geometry::Side;
 
 use crate::{BoreCoupling, Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceGroup};
 
-/// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
+/// A mesh whose bore, flanks and cuts are known. Every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshedGear {
     pub(crate) mesh: Mesh,
@@ -21,13 +21,13 @@ pub struct MeshedGear {
 }
 
 impl MeshedGear {
-    /// Finds the parts of a gear of `teeth` teeth by the names of the physical groups.
+    /// Finds the parts of a gear with `teeth` teeth by the names of the physical groups.
     ///
-    /// The bore and at least one flank must be named; both cuts or none.
+    /// The bore and at least one flank must be named, and either both cuts or none.
     ///
     /// # Errors
-    /// [`MeshError::MissingGroup`], [`MeshError::NotOnBoundary`] when a face of a group does not bound
-    /// the body, [`MeshError::SameTooth`] when two groups name one flank.
+    /// [`MeshError::MissingGroup`]; [`MeshError::NotOnBoundary`] if a face of a group does not bound the body;
+    /// [`MeshError::SameTooth`] if two groups name the same flank.
     pub fn from_groups(mesh: Mesh, names: &GroupNames, teeth: u32) -> Result<Self, MeshError> {
         names.check()?;
         let table = FaceTable::new(&mesh);
@@ -81,18 +81,19 @@ impl MeshedGear {
         Self { mesh, teeth, bore, bore_nodes, coupling: BoreCoupling::Kinematic, flanks, cuts, clockwise: false }
     }
 
-    /// These parts with teeth that are numbered clockwise, seen from +z, or counter-clockwise as they are where nothing is said: those of a ring are numbered clockwise.
+    /// Sets the direction in which teeth are numbered, seen from +z: `clockwise` for a ring, otherwise
+    /// counter-clockwise, which is the default.
     #[must_use]
     pub fn numbered(self, clockwise: bool) -> Self {
         Self { clockwise, ..self }
     }
 
-    /// +1 where teeth are numbered counter-clockwise, -1 where they are numbered clockwise.
+    /// +1 if teeth are numbered counter-clockwise, -1 if clockwise.
     pub fn numbering_sign(&self) -> f64 {
         if self.clockwise { -1.0 } else { 1.0 }
     }
 
-    /// Angle about z from a tooth to the one that is `pitches` teeth on, rad.
+    /// Angle about z from a tooth to the tooth `pitches` numbers higher, rad.
     pub fn pitches_on(&self, pitches: u32) -> f64 {
         self.numbering_sign() * (std::f64::consts::TAU * f64::from(pitches) / f64::from(self.teeth))
     }
@@ -102,7 +103,7 @@ impl MeshedGear {
         &self.mesh
     }
 
-    /// Number of teeth z of the whole gear, also where the mesh is a sector.
+    /// Number of teeth z of the whole gear, even if the mesh is a sector.
     pub fn tooth_count(&self) -> u32 {
         self.teeth
     }
@@ -112,29 +113,29 @@ impl MeshedGear {
         &self.bore
     }
 
-    /// Nodes of these faces, ascending; [`MeshedGear::held_nodes`] are those that do not move.
+    /// Nodes of the held faces, ascending; [`MeshedGear::held_nodes`] are those that do not move.
     pub fn bore_nodes(&self) -> &[u32] {
         &self.bore_nodes
     }
 
-    /// Faces of one flank; `tooth` counts modulo z. `None` when the mesh does not have it.
+    /// Faces of one flank; `tooth` is taken modulo z. `None` if the mesh does not have this flank.
     pub fn flank(&self, tooth: u32, side: Side) -> Option<&[Face]> {
         self.flanks.get(&(tooth % self.teeth.max(1), side)).map(Vec::as_slice)
     }
 
-    /// Teeth of which a flank is known, ascending, 0..z.
+    /// Teeth that have a known flank, ascending, 0..z.
     pub fn teeth(&self) -> Vec<u32> {
         let mut teeth: Vec<u32> = self.flanks.keys().map(|k| k.0).collect();
         teeth.dedup();
         teeth
     }
 
-    /// Whether the mesh has every flank of every tooth and no cuts.
+    /// Whether the mesh has both flanks of every tooth and no cuts.
     pub fn is_whole_gear(&self) -> bool {
         self.cuts.is_none() && self.flanks.len() as u64 == 2 * u64::from(self.teeth)
     }
 
-    /// The periodic faces of a sector: the one towards the tooth before, then the one towards the next tooth.
+    /// The periodic faces of a sector: first the one towards the preceding tooth, then the one towards the next tooth.
     pub fn cuts(&self) -> Option<[&SurfaceGroup; 2]> {
         self.cuts.as_ref().map(|[first, second]| [first, second])
     }

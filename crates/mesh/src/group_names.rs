@@ -1,13 +1,13 @@
-//! Names of the physical groups of a gear mesh, ours or someone else's.
+//! Names of the physical groups of a gear mesh: the default ones or the user's.
 
 use geometry::Side;
 use serde::{Deserialize, Serialize};
 
 use crate::MeshError;
 
-/// Which physical group is which part of the gear.
+/// Names of the physical groups that are the parts of the gear.
 ///
-/// In the names of flanks `{k}` stands for the tooth number: any integer, counted modulo the number of teeth.
+/// `{k}` in the names of flanks stands for the tooth number: any integer, taken modulo the number of teeth.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GroupNames {
@@ -36,7 +36,7 @@ impl Default for GroupNames {
 }
 
 impl GroupNames {
-    /// The pattern of one side's flanks.
+    /// The name pattern of the flanks on one side.
     pub fn flank(&self, side: Side) -> &str {
         match side {
             Side::Left => &self.flank_left,

@@ -1,4 +1,4 @@
-//! What is in a mesh, in numbers.
+//! Summary of a mesh in numbers.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ pub struct MeshInfo {
     pub volume: f64,
     /// Smallest and largest distance of a node from the z axis, mm.
     pub radius_range: [f64; 2],
-    /// What the mesh seems to be as a gear.
+    /// Gear parameters estimated from the mesh.
     pub gear: LikelyGear,
 }
 
@@ -40,37 +40,37 @@ pub struct GroupInfo {
     pub name: String,
     /// Number of faces.
     pub faces: usize,
-    /// Number of nodes on them.
+    /// Number of nodes on these faces.
     pub nodes: usize,
     /// Area by quadrature, mm^2.
     pub area: f64,
 }
 
-/// What can be told of a gear from the nodes and group names alone.
+/// Gear parameters that can be estimated from the nodes and group names alone.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LikelyGear {
-    /// Radius of the bore group's nodes, mm, when they all have one.
+    /// Radius of the nodes of the bore group, mm, if they all have the same.
     pub bore_radius: Option<f64>,
     /// Largest radius, mm.
     pub tip_radius: f64,
     /// Extent along z, mm.
     pub face_width: f64,
-    /// Number of teeth with a named flank.
+    /// Number of teeth that have a named flank.
     pub named_teeth: usize,
-    /// Number of teeth of the whole gear, from the angle between flanks of neighbouring teeth, between the cuts or, where
-    /// no group is named, between tips.
+    /// Number of teeth of the whole gear, from the angle between flanks of neighbouring teeth, between the cuts, or, in
+    /// a mesh without groups, between the tips.
     pub teeth: Option<u32>,
-    /// Angle about z that holds all nodes, deg; 360 for a whole gear.
+    /// Smallest angle about z that contains all nodes, deg; 360 for a whole gear.
     pub angle_deg: f64,
 }
 
 impl MeshInfo {
-    /// Counts and measures a mesh with our own group names.
+    /// Counts and measures a mesh that uses the default group names.
     pub fn new(mesh: &Mesh) -> Self {
         Self::with_names(mesh, &GroupNames::default())
     }
 
-    /// Counts and measures a mesh with someone else's group names.
+    /// Counts and measures a mesh with the given group names.
     pub fn with_names(mesh: &Mesh, names: &GroupNames) -> Self {
         let mut elements = BTreeMap::new();
         let mut volume = 0.0;
@@ -143,7 +143,7 @@ impl Mesh {
         self.areas(std::slice::from_ref(face))
     }
 
-    /// [`Mesh::area`] of some faces together: what belongs to the kind of face is found once.
+    /// Sum of [`Mesh::area`] over several faces; the quadrature of a kind of face is computed once.
     pub fn areas(&self, faces: &[Face]) -> f64 {
         let mut slopes: Vec<[[f64; 2]; 9]> = Vec::new();
         let mut of = None;

@@ -1,6 +1,6 @@
-//! Which nodes and elements, and which of them are bore, flank, tooth k?
+//! The finite-element mesh of a gear: nodes, elements, and which of them form the bore, the flanks and the teeth.
 //!
-//! Lengths in mm. Node order inside an element is Gmsh's own for every kind.
+//! Lengths are in mm. The node order inside an element is Gmsh's for every kind.
 
 mod block;
 mod bore;

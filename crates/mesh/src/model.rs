@@ -1,4 +1,4 @@
-//! The mesh as data: nodes, volume elements in blocks of one kind, named surface groups.
+//! Data of a mesh: nodes, volume elements in blocks of one kind, named surface groups.
 
 use crate::{ElementKind, FaceKind};
 
@@ -7,24 +7,24 @@ use crate::{ElementKind, FaceKind};
 pub struct Mesh {
     /// Node positions, mm; an index into this list is *the* node number inside the program.
     pub nodes: Vec<[f64; 3]>,
-    /// The file's own tag of each node (1, 2, ... for a generated mesh), for messages.
+    /// Tag of each node in the file (1, 2, ... for a generated mesh), used in messages.
     pub node_tags: Vec<u64>,
-    /// Volume elements, one block a kind.
+    /// Volume elements, one block per kind.
     pub blocks: Vec<ElementBlock>,
-    /// Physical groups of dimension 2 by name, in name order.
+    /// Two-dimensional physical groups, sorted by name.
     pub surfaces: Vec<SurfaceGroup>,
-    /// Names of the physical groups of dimension 3, in name order.
+    /// Names of the three-dimensional physical groups, sorted.
     pub volumes: Vec<String>,
 }
 
 /// Volume elements of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElementBlock {
-    /// Kind of every element here.
+    /// Kind of all elements of the block.
     pub kind: ElementKind,
-    /// Nodes, `kind.node_count()` an element, in Gmsh order.
+    /// Nodes of the elements, `kind.node_count()` per element, in Gmsh order.
     pub connectivity: Vec<u32>,
-    /// The file's own tag of each element.
+    /// Tag of each element in the file.
     pub tags: Vec<u64>,
 }
 
@@ -37,7 +37,7 @@ pub struct SurfaceGroup {
     pub faces: Vec<Face>,
 }
 
-/// One boundary face: nodes in Gmsh order (corners, then edges, then centre).
+/// One boundary face: its nodes in Gmsh order (corners, then edges, then centre).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Face {
     /// Shape and order.
@@ -63,13 +63,13 @@ impl Face {
         &self.nodes[..self.kind.node_count()]
     }
 
-    /// The corner nodes, counter-clockwise seen from where the normal points.
+    /// The corner nodes, counter-clockwise when seen against the normal.
     pub fn corners(&self) -> &[u32] {
         &self.nodes[..self.kind.corner_count()]
     }
 
-    /// The corner nodes ascending, the last `u32::MAX` for a triangle: the same for the two
-    /// elements that share a face, whatever their order and orientation.
+    /// The corner nodes in ascending order; the last entry is `u32::MAX` for a triangle. Two elements that share a face
+    /// give the same key, whatever their node order and orientation.
     pub fn corner_key(&self) -> [u32; 4] {
         corner_key(self.corners())
     }
@@ -83,7 +83,7 @@ impl Face {
         face
     }
 
-    /// This face seen from the other side: the normal is turned.
+    /// This face with the opposite normal.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let (corners, count) = (self.kind.corner_count(), self.kind.node_count());
@@ -118,7 +118,7 @@ impl ElementBlock {
         self.connectivity.is_empty()
     }
 
-    /// Nodes of each element in turn.
+    /// Nodes of each element.
     pub fn elements(&self) -> impl ExactSizeIterator<Item = &[u32]> {
         self.connectivity.chunks_exact(self.kind.node_count())
     }
@@ -130,12 +130,12 @@ impl Mesh {
         self.blocks.iter().map(ElementBlock::len).sum()
     }
 
-    /// The surface group of that name.
+    /// The surface group with this name.
     pub fn surface(&self, name: &str) -> Option<&SurfaceGroup> {
         self.surfaces.iter().find(|s| s.name == name)
     }
 
-    /// Least and largest distance of some nodes from the z axis, mm; infinity and 0 of none.
+    /// Smallest and largest distance of some nodes from the z axis, mm; infinity and 0 for an empty list.
     pub fn radii(&self, nodes: &[u32]) -> [f64; 2] {
         let radius = |&n: &u32| self.nodes[n as usize][0].hypot(self.nodes[n as usize][1]);
         nodes.iter().map(radius).fold([f64::INFINITY, 0.0], |[low, high], r| [low.min(r), high.max(r)])

@@ -1,18 +1,19 @@
-//! Names that differ in a number only: teeth, counted.
+//! Names that differ only in a number, such as those of numbered teeth.
 
 use std::collections::BTreeMap;
 
-/// A name with its last number taken out.
+/// A name without its last number.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Numbered {
     /// The name with `{k}` in place of the number: `ToothL_{k}`.
     pub pattern: String,
-    /// The number, 12 of `ToothL_12`, -1 of `Zahn (-1)`.
+    /// The number: 12 for `ToothL_12`, -1 for `Zahn (-1)`.
     pub number: i64,
 }
 
 impl Numbered {
-    /// The last number in a name. `None` where the name has no number, or where its number does not fit into 64 bits.
+    /// Splits off the last number of a name. `None` if the name has no number or if the number does not fit into 64
+    /// bits.
     ///
     /// ```
     /// # use mesh::Numbered;

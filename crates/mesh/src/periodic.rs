@@ -1,4 +1,4 @@
-//! Which node of one cut is which node of the other.
+//! Pairs each node of one cut with a node of the other.
 
 use crate::Mesh;
 

@@ -1,4 +1,4 @@
-//! How well shaped an element is: Jacobian determinant and scaled Jacobian.
+//! Shape quality of an element: Jacobian determinant and scaled Jacobian.
 
 use std::sync::OnceLock;
 
@@ -130,12 +130,13 @@ impl pulp::NullaryFnOnce for LeastDetJ<'_> {
     }
 }
 
-/// Scaled Jacobian of the corners: 1 for the ideal shape, 0 for a flat one, negative for an inverted one.
+/// Scaled Jacobian, the minimum over the corners: 1 for the ideal shape, 0 for a flat element, negative for an inverted
+/// one.
 ///
 /// ```text
 /// min over corners of  e1 . (e2 x e3) / (|e1| |e2| |e3|) / ideal
 /// ```
-/// e are the three edges that meet in a corner, taken straight.
+/// e are the three edges that meet in a corner, taken as straight lines.
 pub fn scaled_jacobian(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
     let samples = samples(kind);
     let of_corner = |&(c, next): &(usize, [usize; 3])| {

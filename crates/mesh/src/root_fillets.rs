@@ -1,7 +1,7 @@
-//! Which nodes lie on the surface of the root fillets?
+//! Nodes on the surface of the root fillets.
 //!
-//! No mesh names its fillets, so they are found by where they are: on the free surface between the teeth, from the root
-//! circle up to a circle below the root form circle. That works on any mesh, structured or not, whole gear or sector.
+//! Meshes do not name their fillets, so they are found by position: the free surface between the teeth, from the root
+//! circle up to a circle below the root form circle. This works on any mesh, structured or not, whole gear or sector.
 
 use std::collections::BTreeMap;
 
@@ -25,11 +25,11 @@ const END_FACE_NORMAL: f64 = 0.95;
 /// How far, in pitches, a node may be from the middle of a tooth space to count as lying on it.
 const MIDDLE_PITCHES: f64 = 1e-6;
 
-/// Surface nodes of the root fillets, by tooth and side, and the free faces that they are on.
+/// Surface nodes of the root fillets, by tooth and side, and the free faces that contain them.
 ///
-/// The fillet on the left of tooth k reaches from where its tangent makes 20 deg with the tooth's centre line (or from
-/// the root form circle, if the fillet ends before) to the middle of the tooth space between k and k + 1; half of the
-/// root land belongs to it. A node on that middle belongs to both fillets of the space.
+/// The fillet on the left of tooth k starts where its tangent makes 20 deg with the tooth's centre line (or at the root
+/// form circle, if the fillet ends before that). It ends in the middle of the tooth space between k and k + 1, so half
+/// of the root land belongs to it. A node exactly in the middle belongs to both fillets of the space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootFillets {
     nodes: BTreeMap<(u32, Side), Vec<u32>>,
@@ -37,11 +37,11 @@ pub struct RootFillets {
 }
 
 impl RootFillets {
-    /// Finds the fillets of all teeth that the mesh has.
+    /// Finds the fillets of all teeth in the mesh.
     ///
-    /// A node counts when it lies on a boundary face that is neither bore nor cut nor end face (|n_z| above 0.95), at a
-    /// radius from the root circle of `gear` to the upper end of the fillet, and on no flank, where contact forces act.
-    /// The angle against the tooth's twisted centre line says whose fillet it is on.
+    /// A node belongs to a fillet if it lies on a boundary face other than bore, cut and end face (|n_z| above 0.95),
+    /// at a radius from the root circle of `gear` to the upper end of the fillet, and not on a flank, where contact
+    /// forces act. Its angle from the tooth's twisted centre line determines tooth and side.
     pub fn new(mesh: &MeshedGear, gear: &Gear) -> Self {
         let body = mesh.mesh();
         let module = gear.data().normal_module;
@@ -108,20 +108,20 @@ impl RootFillets {
         Self { nodes, faces }
     }
 
-    /// Every free face with a node of a fillet on it, those that go on above the upper end included: those of right
-    /// fillets, then those of left ones, which meet in the middle of a tooth space. A sector may be cut there: what
-    /// goes by surfaces finds the same on a whole mesh.
+    /// All free faces that contain a node of a fillet, including faces that extend above its upper end: first those of
+    /// right fillets, then those of left ones. Left and right fillets meet in the middle of a tooth space, where a
+    /// sector may be cut. Therefore an evaluation by surfaces finds the same on a sector as on a whole mesh.
     pub fn faces(&self) -> &[Vec<Face>; 2] {
         &self.faces
     }
 
-    /// Radius up to which the fillets of `gear` are followed, mm; negative of a ring.
+    /// Radius at which the fillets of `gear` end, mm; negative for a ring.
     pub fn upper_radius(gear: &Gear) -> f64 {
         let profile = gear.profile();
         profile.fillet(profile.fillet_at_tangent(STEEPEST_TANGENT)).0
     }
 
-    /// Nodes of the fillet on one side of a tooth (0 .. z-1), ascending. Empty where the mesh does not have it.
+    /// Nodes of the fillet on one side of a tooth (0 .. z-1), ascending. Empty if the mesh does not have this fillet.
     pub fn nodes(&self, tooth: u32, side: Side) -> &[u32] {
         self.nodes.get(&(tooth, side)).map_or(&[], Vec::as_slice)
     }

@@ -1,4 +1,4 @@
-//! Teeth of a mesh that names none: its tip lands are counted.
+//! Counts the teeth of a mesh without groups by its tip lands.
 
 use std::f64::consts::TAU;
 

@@ -1,10 +1,10 @@
-//! The elastic gears of an analysis: reduced, or with all their degrees of freedom.
+//! The elastic gears of an analysis, reduced or with all their degrees of freedom.
 
 use crate::{GearReducer, ReductionError, Window};
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::{BoreCoupling, MeshedGear};
 
-/// A gear with all degrees of freedom kept, bore held.
+/// A gear with all its degrees of freedom, held at its bore.
 #[derive(Debug)]
 pub struct FullGear {
     /// The meshed gear.
@@ -15,7 +15,7 @@ pub struct FullGear {
     pub elements: ElementOptions,
     /// Free degrees of freedom.
     pub dofs: DofMap,
-    /// K, N/mm.
+    /// Stiffness K, N/mm.
     pub stiffness: SymmetricMatrix,
 }
 
@@ -23,7 +23,7 @@ impl FullGear {
     /// Assembles the gear.
     ///
     /// # Errors
-    /// [`ReductionError::Fem`]; [`ReductionError::NotReduced`] for a bore that is held by its means.
+    /// [`ReductionError::Fem`]; [`ReductionError::NotReduced`] for a bore with distributing coupling.
     pub fn new(gear: MeshedGear, material: Material, elements: &ElementOptions) -> Result<Self, ReductionError> {
         if gear.bore_coupling() == BoreCoupling::Distributing {
             return Err(ReductionError::NotReduced);
@@ -34,13 +34,13 @@ impl FullGear {
     }
 }
 
-/// One gear as the analysis holds it.
+/// A gear of an analysis.
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "two of them live as long as the program")]
 pub enum ElasticGear {
-    /// Known from its flanks, or from coarse grids over them.
+    /// Reduced to its flanks, or to coarse grids over them.
     Reduced(GearReducer),
-    /// All degrees of freedom.
+    /// With all its degrees of freedom.
     Full(FullGear),
 }
 
@@ -56,7 +56,8 @@ impl ElasticGear {
         }
     }
 
-    /// Whether the window from tooth `first` on has the matrices of another one; nothing is made to find out.
+    /// Whether the window that starts at tooth `first` has the same matrices as another window. No matrix is computed
+    /// for the answer.
     pub fn shares_matrices(&self, window: &Window, first: u32) -> bool {
         match self {
             Self::Reduced(r) => r.shares_matrices(window, first),
@@ -72,7 +73,7 @@ impl ElasticGear {
         }
     }
 
-    /// The material.
+    /// The material of the gear.
     pub fn material(&self) -> &Material {
         match self {
             Self::Reduced(r) => r.material(),

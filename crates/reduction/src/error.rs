@@ -1,105 +1,105 @@
-//! What can go wrong in the reduction.
+//! Errors of the reduction.
 
 use geometry::Side;
 
-/// The gear could not be reduced.
+/// Reasons for which a gear cannot be reduced.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReductionError {
-    /// Elements, assembly or factor.
+    /// Error of elements, assembly or factor.
     #[error(transparent)]
     Fem(#[from] fem::FemError),
-    /// The copies of a sector do not join.
+    /// The copies of a sector cannot be joined.
     #[error("the sector's copies do not join: {said}")]
     Sector {
-        /// What the mesh says.
+        /// Message of the mesh error.
         said: String,
-        /// Advice of the source.
+        /// Hint of the mesh error.
         hint: Option<String>,
     },
-    /// The mesh has no such flank.
+    /// The mesh does not have this flank.
     #[error("the mesh has no {} flank of tooth {tooth}; it has teeth {available:?}", side.name())]
     MissingFlank {
-        /// Tooth asked for.
+        /// Tooth requested.
         tooth: u32,
-        /// Side asked for.
+        /// Side requested.
         side: Side,
-        /// Teeth of which the mesh has flanks.
+        /// Teeth with flanks in the mesh.
         available: Vec<u32>,
     },
     /// No node of the mesh lies on this fillet.
     #[error("the mesh has no node on the {} root fillet of tooth {tooth}, between root circle and root form circle", side.name())]
     MissingFillet {
-        /// Tooth.
+        /// Number of the tooth.
         tooth: u32,
-        /// Side.
+        /// Side of the tooth.
         side: Side,
     },
-    /// Bore and flank meet.
+    /// Bore and flank share a node.
     #[error("node {node} belongs to both the bore and the {} flank of tooth {tooth}", side.name())]
     BoreOnFlank {
-        /// Node of the mesh.
+        /// Tag of the node.
         node: u64,
-        /// Tooth.
+        /// Number of the tooth.
         tooth: u32,
-        /// Side.
+        /// Side of the tooth.
         side: Side,
     },
-    /// Coordinates of another window.
+    /// The number of coordinates is that of another window.
     #[error("{given} coordinates for a window of {wanted}")]
     WrongLength {
-        /// Coordinates given.
+        /// Number of coordinates given.
         given: usize,
-        /// Coordinates of the window.
+        /// Number of coordinates of the window.
         wanted: usize,
     },
     /// A condensed matrix is not positive definite.
     #[error("the compliance of the window from tooth {first} on is not positive definite")]
     NotPositiveDefinite {
-        /// First tooth.
+        /// First tooth of the window.
         first: u32,
     },
-    /// Normal modes were not found.
+    /// The normal modes did not converge.
     #[error("{converged} normal modes were found with {vectors} vectors, fewer than asked for")]
     ModesNotConverged {
-        /// Modes found.
+        /// Number of modes found.
         converged: usize,
-        /// Vectors that the search held.
+        /// Number of vectors in the search space.
         vectors: usize,
     },
-    /// Flanks with more coordinates than a consistent boundary can have.
+    /// The flanks have more coordinates than a consistent boundary can have.
     #[error("a consistent boundary would have {coordinates} coordinates, {most} at most")]
     LargeBoundary {
-        /// Coordinates of all flanks.
+        /// Number of coordinates of all flanks.
         coordinates: usize,
-        /// Most that are possible.
+        /// Largest possible number.
         most: usize,
     },
-    /// Faces of a bore that have no mean turn.
+    /// The held faces of a bore do not define a mean rotation.
     #[error("the {faces} held faces of the bore are too small to hold the gear by their mean displacement and turn")]
     NoMeanTurn {
-        /// Held faces.
+        /// Number of held faces.
         faces: usize,
     },
-    /// A bore that is held by its means, of a gear that keeps all its freedoms.
+    /// A distributing coupling of the bore, on a gear with all its degrees of freedom.
     #[error(
         "a bore with the coupling `distributing` is held by its means, which a gear with all its freedoms does not know"
     )]
     NotReduced,
-    /// More asked of a gear condensed by its layers than contact reads.
+    /// A gear condensed by its layers was asked for a result that contact does not need.
     #[error(
         "a gear of {layers} layers along the face is condensed by {condensed} of them, and has no fields, modes or stress of its whole width"
     )]
     Layers {
-        /// Layers of the gear.
+        /// Number of layers of the gear.
         layers: usize,
-        /// Layers of the gear that was condensed.
+        /// Number of layers of the shorter gear that was condensed.
         condensed: usize,
     },
-    /// A gear that does not repeat tooth by tooth.
+    /// Condensation by layers of a gear whose teeth are not all equal.
     #[error("a gear that is to be condensed by its layers must be one sector, which its copies join")]
     NoSectorOfLayers,
-    /// Normal modes of one gear asked for on the flanks of another.
+    /// Normal modes of one gear were requested on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
 }
@@ -111,12 +111,12 @@ impl From<mesh::MeshError> for ReductionError {
 }
 
 impl ReductionError {
-    /// Whether the work ended because nobody waits for it any more.
+    /// Whether the work was cancelled because its result is no longer wanted.
     pub fn is_unwanted(&self) -> bool {
         matches!(self, Self::Fem(fem::FemError::Unwanted))
     }
 
-    /// Whether the input has a meaning and no result came out.
+    /// Whether the input is valid but no result was found.
     pub fn is_without_result(&self) -> bool {
         matches!(self, Self::ModesNotConverged { .. } | Self::OtherGear)
     }

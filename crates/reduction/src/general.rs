@@ -1,4 +1,4 @@
-//! One sparse factor of a whole gear, cyclic or not.
+//! Condensation with one sparse factor of the whole gear, cyclic or not.
 
 use std::ops::Range;
 

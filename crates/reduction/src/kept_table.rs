@@ -1,13 +1,13 @@
-//! Tables that contact makes of a gear's compliance, kept with the gear from run to run.
+//! Tables that contact computes from a gear's compliance; they are stored with the gear for later runs.
 
 use std::{fmt, sync::Arc};
 
-/// Names a table: equal for equal content, in practice different for any other.
+/// Name of a table: equal for equal content, in practice different for different content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TableKey(pub(crate) [u8; 32]);
 
 impl TableKey {
-    /// Key of all that a table depends on beside the gear's own matrices.
+    /// Key of everything that a table depends on, in addition to the gear's own matrices.
     pub fn of(content: &[u8]) -> Self {
         Self(*blake3::hash(content).as_bytes())
     }
@@ -20,13 +20,13 @@ impl fmt::Display for TableKey {
     }
 }
 
-/// A table and how far it is off.
+/// A table and its error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeptTable {
-    /// Error of what is read from it, relative.
+    /// Relative error of values read from the table.
     pub error: f64,
-    /// Its part along the normals, which contact without friction reads alone.
+    /// Part of the table for displacements along the normals; contact without friction reads only this part.
     pub normal: Arc<Vec<f64>>,
-    /// The rest, where it is at hand; else it may be in a file of its own.
+    /// The other part of the table, if it is in memory; it may also be in a separate file.
     pub others: Option<Arc<Vec<f64>>>,
 }

@@ -1,4 +1,4 @@
-//! The half tooth as an elastic layer with ends: its constant at every place of the flank.
+//! The half tooth as an elastic layer with ends: its layer constant at every position on the flank.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,23 +9,23 @@ use crate::{
     plane_strain::{PlaneBody, Vec2},
 };
 
-/// Constant c of a half tooth under a line load, along the profile.
+/// Layer constant c of a half tooth under a line load, along the profile.
 ///
-/// When everything but the half between the loaded flank and the tooth's centre surface is clamped, a Hertzian line load
-/// q with half-width a dents the flank by
+/// If everything except the half between the loaded flank and the tooth's centre surface is clamped, a Hertzian line
+/// load q of half-width a indents the flank by
 ///
 /// ```text
 /// delta = K q [ln(2 t / a) + 1/2 + c(u) + eta ln(t / d)],   K = 2 (1 - nu^2) / (pi E)
 /// t = (r sin(psi) + o) cos(b_b),   d = r_b (u_a^2 - u^2) / 2
 /// ```
-/// as long as a is small against t and d. The last term is the wedge's at the tip (eta of its angle,
-/// `contact::local::wedge_softening`): it is split off because it has no limit at the edge, while c is smooth up to it. A
-/// bonded layer of even depth and no ends would have one constant everywhere (`contact::local::layer_constant`); a tooth's
-/// differs from it by 0.1 to 0.8, most at the foot.
+/// This holds while a is small compared with t and d. The last term is that of the wedge at the tip (eta of its angle,
+/// `contact::local::wedge_softening`). It is separated because it has no limit at the edge, while c is smooth up to the
+/// edge. A bonded layer of constant depth without ends has one constant everywhere (`contact::local::layer_constant`).
+/// The constant of a tooth differs from it by 0.1 to 0.8, most at the root.
 ///
-/// Found by plane strain on the section normal to the contact line (some hundred quadratic elements, a few
-/// milliseconds): the half-plane's answer to a point force is subtracted, so that what the elements must know is
-/// smooth, and c does not depend on them (0.01).
+/// c is computed by plane strain on the section normal to the contact line (some hundred quadratic elements, a few
+/// milliseconds). The half-plane's response to a point force is subtracted, so that the elements need to resolve only a
+/// smooth field and c does not depend on them (0.01).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerProfile {
     /// Arc lengths from the tip edge, mm, ascending from 0.
@@ -54,14 +54,14 @@ const FOOT: f64 = 0.15;
 const SKIPPED: usize = 4;
 
 impl LayerProfile {
-    /// The constant of a gear's flank, clamped `overshoot` (mm) past the tooth's centre surface.
+    /// The layer constant of a gear's flank, clamped `overshoot` (mm) beyond the tooth's centre surface.
     ///
     /// # Errors
     /// [`ReductionError::Fem`].
     ///
     /// # Example
-    /// The layer without ends has -0.527; the middle of a real flank is 0.1 softer, the foot, next to where it is
-    /// clamped, stiffer.
+    /// A layer without ends has -0.527. In the middle of a real flank c is 0.1 softer; near the root, next to the
+    /// clamped region, it is stiffer.
     /// ```
     /// let gear = geometry::Gear::new(geometry::GearData::default())?;
     /// let profile = reduction::LayerProfile::new(&gear, 0.3, 0.0)?;
@@ -94,7 +94,7 @@ impl LayerProfile {
         Ok(Self { arcs, constants, slopes, roll_tip, base_radius: gear.base_radius(), tip_angle, tip_gradient })
     }
 
-    /// c at a roll angle; with a continuous slope. Past either end of the flank: the value there.
+    /// c at a roll angle, with continuous slope. Beyond either end of the flank it is the value at that end.
     pub fn constant(&self, roll: f64) -> f64 {
         let last = self.arcs.len() - 1;
         let arc = (0.5 * self.base_radius * (self.roll_tip * self.roll_tip - roll * roll)).clamp(0.0, self.arcs[last]);
@@ -119,7 +119,7 @@ impl LayerProfile {
         same.then_some(Self { arcs, constants, slopes, roll_tip, base_radius, tip_angle, tip_gradient })
     }
 
-    /// d/dx [c + (1 + eta) ln t] at the tip edge, x the distance from it, 1/mm.
+    /// d/dx [c + (1 + eta) ln t] at the tip edge, 1/mm, where x is the distance from the edge.
     pub fn tip_gradient(&self) -> f64 {
         self.tip_gradient
     }

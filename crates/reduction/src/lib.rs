@@ -1,14 +1,15 @@
-//! What does the gear look like from its flanks?
+//! Reduces a gear to its flanks.
 //!
-//! The flank nodes of the window's teeth are the boundary B, everything else but the bore is the interior I; the bore
-//! moves rigidly with the gear's body frame.
+//! The flank nodes of the window's teeth are the boundary B. All other nodes except those of the bore are the interior
+//! I. The bore moves rigidly with the gear's body frame.
 //!
 //! ```text
 //! Phi_IC = -K_II^-1 K_IB,  T = [I; Phi_IC],  K^ = T' K T,  M^ = T' M T,  C = K^^-1
 //! ```
-//! Two ways lead to the same C and, when asked for, K^, M^, fields and stress modes S = D B T: one sector condensed and
-//! joined with itself, for a gear that is the same after a turn by one pitch, and one sparse factor of the whole gear
-//! for any other. Coordinates are three displacements a boundary node (x, y, z), mm, in the window's own frame.
+//! There are two methods for the compliance C and, on request, K^, M^, fields and stress modes S = D B T. They give the
+//! same result. A gear that is invariant under rotation by one pitch is condensed as one sector that is joined with
+//! itself; any other gear is condensed with one sparse factor of the whole gear. Coordinates are three displacements
+//! per boundary node (x, y, z), mm, in the window's own frame.
 
 mod cyclic;
 mod elastic;

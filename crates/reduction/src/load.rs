@@ -1,5 +1,4 @@
-//! What the coordinates of a reduced gear are: flank nodes, or means over them with the weights of unit loads on a
-//! grid.
+//! Coordinates of a reduced gear: its flank nodes, or weighted means over them that belong to unit loads on a grid.
 
 use std::collections::BTreeMap;
 
@@ -11,17 +10,17 @@ use crate::ReductionError;
 /// Nodes of a mesh that carry a unit load, and their shares.
 pub(crate) type Load = Vec<(u32, f64)>;
 
-/// A coarse mesh of faces over one flank; loads on its nodes act on the nodes of the fine mesh about them.
+/// A coarse mesh of faces over one flank. Loads on its nodes act on the nodes of the fine mesh around them.
 ///
-/// W - W_c of slice contact is smooth over half a tooth thickness, so a grid as coarse as that holds it, and the size
+/// W - W_c of slice contact is smooth over half a tooth thickness, so a grid of this size is fine enough, and the size
 /// of the reduced gear does not grow with the mesh. Positions and loads are in the gear's own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankGrid {
-    /// Faces; node numbers count the grid's nodes from 0.
+    /// Faces of the grid; node numbers count the grid's nodes from 0.
     pub faces: Vec<Face>,
-    /// Grid nodes, mm.
+    /// Positions of the grid nodes, mm.
     pub positions: Vec<[f64; 3]>,
-    /// Nodes of the mesh that carry a unit load on each grid node, and their shares.
+    /// For each grid node, the mesh nodes that carry a unit load on it, with their shares.
     pub loads: Vec<Vec<(u32, f64)>>,
 }
 

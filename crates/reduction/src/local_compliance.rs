@@ -1,4 +1,5 @@
-//! One tooth held beyond its centre surface: the part of a mesh's compliance that a closed form replaces.
+//! Compliance of a half tooth clamped beyond its centre surface: the part of a mesh's compliance that a closed form
+//! replaces.
 
 use std::collections::BTreeMap;
 
@@ -9,24 +10,24 @@ use mesh::{ElementBlock, Mesh, MeshedGear};
 
 use crate::{FlankGrid, LayerProfile, ReductionError, cyclic::face_nodes, general::load_compliance, load::missing};
 
-/// Compliance W_c of a flank when everything but the half of its tooth between the flank and the tooth's centre surface
-/// is clamped.
+/// Compliance W_c of a flank when everything is clamped except the half of its tooth between the flank and the tooth's
+/// centre surface.
 ///
-/// Pressing a point of a mesh makes a dent whose depth is the mesh's, not the gear's. The same dent is in W (the whole
-/// gear) and in W_c, so W - W_c is free of it: it is how far the centre surface of the tooth deflects, smooth and
-/// nearly the same on every mesh. The dent itself comes in closed form (crate `contact`, `LocalContact`). Free are the
-/// nodes above the root circle on the loaded side of the centre surface. W - W_c is positive semi-definite, because
-/// clamping only takes compliance away.
+/// A point load on a mesh makes an indentation whose depth depends on the mesh and not on the gear. The same
+/// indentation is in W (the whole gear) and in W_c, so W - W_c is free of it. W - W_c describes the deflection of the
+/// tooth's centre surface; it is smooth and nearly the same on every mesh. The indentation itself is computed in closed
+/// form (crate `contact`, `LocalContact`). The free nodes are those above the root circle on the loaded side of the
+/// centre surface. W - W_c is positive semi-definite, because clamping only reduces compliance.
 #[derive(Debug, Clone)]
 pub struct LocalCompliance {
-    /// Flank nodes, numbers of the mesh, ascending.
+    /// Flank nodes, as numbers of the mesh, ascending.
     pub nodes: Vec<u32>,
-    /// W_c, mm/N, 3 n x 3 n, coordinates as in [`crate::ReducedGear`]; a clamped node's rows are 0.
+    /// W_c, mm/N, 3 n x 3 n, with coordinates as in [`crate::ReducedGear`]; the rows of a clamped node are 0.
     pub compliance: Mat<f64>,
-    /// How far the clamped nodes next to the free half lie past the centre surface on average, mm: 0 where the mesh has
-    /// nodes on it. The layer is deeper by as much.
+    /// Mean distance by which the clamped nodes next to the free half lie beyond the centre surface, mm; 0 if the mesh
+    /// has nodes on that surface. The layer is deeper by this distance.
     pub overshoot: f64,
-    /// What a line load does to this half when its band is resolved.
+    /// Response of this half to a line load whose contact band is resolved.
     pub layer: LayerProfile,
 }
 
@@ -64,7 +65,7 @@ impl LocalCompliance {
         Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })
     }
 
-    /// Local compliance for loads on the nodes of a grid; `nodes` are then the grid's.
+    /// Local compliance for loads on the nodes of a grid; `nodes` are then those of the grid.
     ///
     /// # Errors
     /// [`ReductionError::Fem`].

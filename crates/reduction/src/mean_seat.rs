@@ -1,4 +1,4 @@
-//! A gear held by the means of its bore: a free body in balance with six reactions. Theory (13a), (13b).
+//! A gear held by the means of its bore: a free body in equilibrium with six reactions. Theory (13a), (13b).
 
 use faer::{Mat, MatMut};
 use fem::{DofMap, SymmetricMatrix};

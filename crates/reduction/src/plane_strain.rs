@@ -37,7 +37,7 @@ pub(crate) struct PlaneBody {
 }
 
 impl PlaneBody {
-    /// Assembles and factors. `elements`: node numbers in the order of [`FaceKind::Quad8`].
+    /// Assembles and factors. `elements` are node numbers in the order of [`FaceKind::Quad8`].
     pub fn new(
         points: Vec<Vec2>,
         elements: &[[usize; NODES]],
@@ -80,13 +80,13 @@ impl PlaneBody {
         Ok(Self { points, free_edges, rows, poisson, coupling, factor })
     }
 
-    /// Regular part of the dent under a unit force on node `node`, along `inward` (unit vector into the material): the
-    /// body's answer less the half-plane's, in units of K = 2 (1 - nu^2) / pi, so that the dent at distance r is
-    /// -ln(r) + regular.
+    /// Regular part of the indentation under a unit force on node `node`, along `inward` (unit vector into the
+    /// material): the response of the body minus that of the half-plane, in units of K = 2 (1 - nu^2) / pi. The
+    /// indentation at distance r is then -ln(r) + regular.
     ///
-    /// The half-plane's displacements and stresses (Flamant; Johnson, Contact Mechanics, 1985, section 2.2) are
-    /// subtracted: what is left is smooth and coarse elements know it well. It has minus the half-plane's tractions on
-    /// the free edges and minus its displacements on the clamped nodes.
+    /// The displacements and stresses of the half-plane (Flamant; Johnson, Contact Mechanics, 1985, section 2.2) are
+    /// subtracted. The rest is smooth, and coarse elements resolve it well. Its tractions on the free edges and its
+    /// displacements on the clamped nodes are those of the half-plane with opposite sign.
     pub fn regular_dents(&self, stations: &[(usize, Vec2)]) -> Result<Vec<f64>, FemError> {
         let mut rhs = Mat::<f64>::zeros(self.factor.n(), stations.len());
         for (column, &(node, inward)) in stations.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! From a window's coordinates to fields, mass and stress of the gear.
+//! Recovers fields, mass and stress of the gear from the coordinates of a window.
 
 use faer::{Mat, MatRef};
 use fem::dense;
@@ -14,12 +14,12 @@ use crate::{
 };
 
 impl GearReducer {
-    /// Displacement (mm) of every node of the mesh in the gear's own frame when the window's coordinates are `u` and
-    /// all else is free of load: T u = [u_B; Phi_IC u_B].
+    /// Displacement (mm) of every node of the mesh in the gear's own frame, for window coordinates `u` and no other
+    /// load: T u = [u_B; Phi_IC u_B].
     ///
     /// # Errors
-    /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from
-    /// coordinates: a grid with more nodes than the mesh can tell apart.
+    /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] if the coordinates do not determine
+    /// forces, because a grid has more nodes than the mesh can resolve.
     pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
         check_length(window, u)?;
         let u = MatRef::from_column_major_slice(u, u.len(), 1);
@@ -27,12 +27,13 @@ impl GearReducer {
         Ok(self.field(window, None, || u.to_owned(), forces)?.pop().unwrap_or_default())
     }
 
-    /// Displacement at some nodes of the mesh, in their order, for several `forces` (N) on the coordinates of one window
-    /// at once: of a cyclic gear only the sectors that hold the nodes are gone through, of any other the branches of the
-    /// factor that do, and the factor once for all. Where u = C f it is that of [`GearReducer::expand`] without C^-1.
+    /// Displacement at several nodes of the mesh, in the given order, for several `forces` (N) at once on the
+    /// coordinates of one window. For a cyclic gear only the sectors with these nodes are visited, for any other gear
+    /// the branches of the factor with these nodes, and the factor only once. If u = C f, the result is that of
+    /// [`GearReducer::expand`], without use of C^-1.
     ///
     /// # Errors
-    /// [`ReductionError::WrongLength`]; [`ReductionError::Fem`] when the mesh does not have a node.
+    /// [`ReductionError::WrongLength`]; [`ReductionError::Fem`] if the mesh does not have one of the nodes.
     pub fn expand_under(
         &self,
         window: &Window,
@@ -106,7 +107,7 @@ impl GearReducer {
         turned
     }
 
-    /// Coordinates of the window `to`, in its own frame, of the field that `u` describe in the window `from`.
+    /// Coordinates of the window `to`, in its own frame, of the field that has coordinates `u` in the window `from`.
     /// Theory (15).
     ///
     /// ```text
@@ -114,7 +115,7 @@ impl GearReducer {
     /// oncoming one:  u_B(to) = rows of Phi_IC of the old window times u_B(from)
     /// ```
     /// # Errors
-    /// As [`GearReducer::expand`].
+    /// Those of [`GearReducer::expand`].
     pub fn carry(&self, from: &Window, to: &Window, u: &[f64]) -> Result<Vec<f64>, ReductionError> {
         let (z, loads) = (self.gear().tooth_count(), self.loads(to)?);
         if let Method::Cyclic(cyclic) = self.method()? {
@@ -131,10 +132,10 @@ impl GearReducer {
         Ok(carried)
     }
 
-    /// Columns `columns` of T = [I; Phi_IC] of the first window, one row a free degree of freedom of the mesh.
+    /// Columns `columns` of T = [I; Phi_IC] of the first window, one row per free degree of freedom of the mesh.
     ///
     /// # Errors
-    /// [`ReductionError::WrongLength`] when a column does not exist; else as [`GearReducer::expand`].
+    /// [`ReductionError::WrongLength`] if a column does not exist; otherwise those of [`GearReducer::expand`].
     pub fn constraint_modes(&self, columns: &[usize]) -> Result<Mat<f64>, ReductionError> {
         let n = self.base.coordinates();
         if let Some(&given) = columns.iter().find(|&&c| c >= n) {

@@ -1,4 +1,4 @@
-//! Stress modes: stress at chosen nodes straight from a window's boundary coordinates. Theory (22a), (22b), (22c).
+//! Stress modes: stress at chosen nodes directly from a window's boundary coordinates. Theory (22a), (22b), (22c).
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use mesh::Face;
 
 use crate::{GearReducer, ReducedGear, ReductionError, Window, cyclic::SectorStress, stress_recovery::StressRecovery};
 
-/// Stress at some nodes of a gear as a linear map of a window's boundary coordinates.
+/// Stress at several nodes of a gear as a linear map of a window's boundary coordinates.
 ///
 /// ```text
 /// sigma = S u_B,   S = D B T,   T = [I; Phi_IC]
@@ -20,7 +20,7 @@ use crate::{GearReducer, ReducedGear, ReductionError, Window, cyclic::SectorStre
 /// | S         | 6 m x n_B   | MPa/mm | row 6 i + k: component k (xx, yy, zz, xy, yz, zx) at node i          |
 ///
 /// Exact for loads on the boundary, as T is. Components are in the frame of the window's matrices; principal and
-/// equivalent stresses do not depend on it. Source of T: Craig and Bampton, AIAA J. 6(7), 1968.
+/// equivalent stresses do not depend on the frame. Source of T: Craig and Bampton, AIAA J. 6(7), 1968.
 #[derive(Debug, Clone)]
 pub struct StressModes {
     nodes: Vec<u32>,
@@ -40,12 +40,12 @@ pub(crate) enum KnownStress {
 }
 
 impl StressModes {
-    /// The nodes, in the order asked for; numbers of the mesh in the frame of the window's matrices.
+    /// The nodes in the order requested, as numbers of the mesh in the frame of the window's matrices.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
     }
 
-    /// S, MPa/mm.
+    /// Stress modes S, MPa/mm.
     ///
     /// # Errors
     /// [`ReductionError::NotPositiveDefinite`] as for [`GearReducer::expand`].
@@ -78,7 +78,7 @@ impl StressModes {
         }
     }
 
-    /// Stress (MPa) at each node under `forces` on the boundary coordinates (N), which move them by C f.
+    /// Stress (MPa) at each node under `forces` on the boundary coordinates (N), which cause the displacements C f.
     ///
     /// # Errors
     /// [`ReductionError::WrongLength`].
@@ -126,23 +126,23 @@ fn applied(modes: &Mat<f64>, counts: &[f64]) -> Vec<[f64; 6]> {
 impl GearReducer {
     /// Stress modes of a window for `nodes` (numbers of the mesh in the frame of the window's matrices).
     ///
-    /// A cyclic gear has the same modes in all its windows: `S = (D B) [X f + T u_c]` sector by sector, f = K^ u_B.
-    /// With one factor of the whole gear they are read off it for the window whose boundary is last in it; other
-    /// windows take solves: S = D B K^-1 R' K^, R the window's freedoms. Where f comes first, K^ waits until it is
-    /// asked for.
+    /// A cyclic gear has the same modes in all its windows: `S = (D B) [X f + T u_c]`, sector by sector, with f = K^
+    /// u_B. With one factor of the whole gear, the modes of the window whose boundary is last in the factor are read
+    /// from it. Other windows need solves: S = D B K^-1 R' K^, where R selects the window's degrees of freedom. If the
+    /// forces f are given, K^ is not computed until it is needed.
     ///
     /// # Errors
-    /// [`ReductionError::Fem`] when a node does not exist.
+    /// [`ReductionError::Fem`] if a node does not exist.
     pub fn stress_modes(&self, window: &Window, nodes: &[u32]) -> Result<StressModes, ReductionError> {
         let [volume] = self.modes_by(window, nodes, [StressRecovery::Volume]);
         volume
     }
 
-    /// Stress modes for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the
-    /// frame of the window's matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
+    /// Stress modes for nodes of free faces, computed only from the displacement of these `faces` (numbers of the mesh
+    /// in the frame of the window's matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
     ///
     /// # Errors
-    /// As [`GearReducer::stress_modes`].
+    /// Those of [`GearReducer::stress_modes`].
     pub fn surface_stress_modes(
         &self,
         window: &Window,
@@ -153,11 +153,11 @@ impl GearReducer {
         surface
     }
 
-    /// [`GearReducer::surface_stress_modes`] and [`GearReducer::stress_modes`] of the same nodes. For a cyclic gear both
-    /// share the matrix that gives the displacements around these nodes.
+    /// [`GearReducer::surface_stress_modes`] and [`GearReducer::stress_modes`] of the same nodes. For a cyclic gear
+    /// both use the same matrix for the displacements around these nodes.
     ///
     /// # Errors
-    /// As [`GearReducer::stress_modes`].
+    /// Those of [`GearReducer::stress_modes`].
     pub fn both_stress_modes(
         &self,
         window: &Window,

@@ -1,4 +1,4 @@
-//! How the stress at a node comes from the displacement of the mesh.
+//! How the stress at a node follows from the displacement of the mesh.
 
 use mesh::Face;
 

@@ -1,12 +1,13 @@
-//! Compliance between the teeth of a gear that is not cyclic: each tooth's columns, once, however many windows hold it.
+//! Compliance between the teeth of a gear that is not cyclic: the columns of each tooth are computed once, however many
+//! windows contain it.
 //!
 //! ```text
 //! C_ts = P_t' K^-1 P_s      displacements of tooth t under unit forces on tooth s, mm/N
 //! ```
-//! A window's compliance is those blocks of its teeth. The first window comes from the factor by itself; any other block
-//! is among the columns of one tooth, the one further from the first window. So a window one tooth on takes the columns
-//! of the oncoming tooth alone, neighbouring windows have the very same numbers for the teeth they share, and a number
-//! does not depend on what was asked before.
+//! A window's compliance consists of blocks for pairs of its teeth. The first window comes directly from the factor.
+//! Any other block belongs to the columns of the tooth that is further from the first window. So a window that is one
+//! tooth further needs only the columns of the oncoming tooth, and neighbouring windows have identical numbers for the
+//! teeth that they share. No number depends on earlier requests.
 
 use std::sync::Arc;
 
@@ -39,14 +40,14 @@ impl ToothRing {
         if on < self.window { 0 } else { (on + 1 - self.window).min(self.teeth - on) }
     }
 
-    /// The tooth whose columns hold the block of two teeth: the one further from the first window, of two as far the one
-    /// of the higher number. `None` where the first window has it.
+    /// The tooth whose columns contain the block of two teeth: the one further from the first window, or the one with
+    /// the higher number if both are equally far. `None` if the block belongs to the first window.
     pub fn owner(self, a: u32, b: u32) -> Option<u32> {
         let (beyond, tooth) = [a, b].map(|t| (self.beyond(t), t)).into_iter().max()?;
         (beyond > 0).then_some(tooth)
     }
 
-    /// Teeth of the blocks among the columns of a tooth, ascending; it is one of them.
+    /// Teeth of the blocks among the columns of a tooth, ascending, including the tooth itself.
     pub fn partners(self, tooth: u32) -> Vec<u32> {
         let mine = |&t: &u32| self.apart(t, tooth) < self.window && self.owner(t, tooth) == Some(tooth);
         (0..self.teeth).filter(mine).collect()
@@ -56,13 +57,13 @@ impl ToothRing {
 /// Columns of one tooth in the compliance of a gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothColumns {
-    /// Tooth that the unit forces are on.
+    /// Tooth on which the unit forces act.
     pub tooth: u32,
     /// Teeth of the blocks, ascending.
     pub partners: Vec<u32>,
-    /// Coordinates of each of these teeth.
+    /// Number of coordinates of each of these teeth.
     pub sizes: Vec<u32>,
-    /// Blocks one below the other, mm/N.
+    /// Blocks, one below the other, mm/N.
     pub compliance: Mat<f64>,
 }
 
@@ -84,63 +85,64 @@ impl ToothColumns {
     }
 }
 
-/// Where parts of a gear are kept beside its record: columns of its teeth as soon as they are made, so that a run that is
-/// stopped need not make them again, the factor of its sector, what contact along the normals does not ask of its tables.
+/// Store for parts of a gear beside its record: columns of its teeth, stored as soon as they are computed so that an
+/// interrupted run does not lose them; the factor of its sector; the parts of tables that contact along the normals
+/// does not need.
 pub trait PartStore: std::fmt::Debug + Send + Sync {
-    /// Columns of a tooth, if they are there.
+    /// Columns of a tooth, if they are stored.
     ///
     /// # Errors
-    /// [`PartFault`] of a file that cannot be used.
+    /// [`PartFault`] if the file cannot be used.
     fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, PartFault>;
 
-    /// Keeps columns of a tooth.
+    /// Stores the columns of a tooth.
     ///
     /// # Errors
-    /// [`PartFault`] where that cannot be done.
+    /// [`PartFault`] if they cannot be stored.
     fn save(&self, columns: &ToothColumns) -> Result<(), PartFault>;
 
-    /// The factor of the sector, if it is there. A store need not keep it.
+    /// The factor of the sector, if it is stored. A store need not keep it.
     ///
     /// # Errors
-    /// As [`PartStore::load`].
+    /// The errors of [`PartStore::load`].
     fn load_factor(&self) -> Result<Option<KeptFactor>, PartFault> {
         Ok(None)
     }
 
-    /// Keeps the factor of the sector.
+    /// Stores the factor of the sector.
     ///
     /// # Errors
-    /// As [`PartStore::save`].
+    /// The errors of [`PartStore::save`].
     fn save_factor(&self, _: &KeptFactor) -> Result<(), PartFault> {
         Ok(())
     }
 
-    /// A table but for its part along the normals, if it is there. A store need not keep it.
+    /// The part of a table that is not for the normals, if it is stored. A store need not keep it.
     ///
     /// # Errors
-    /// As [`PartStore::load`].
+    /// The errors of [`PartStore::load`].
     fn load_table(&self, _: &TableKey) -> Result<Option<Vec<f64>>, PartFault> {
         Ok(None)
     }
 
-    /// Keeps a table but for its part along the normals.
+    /// Stores the part of a table that is not for the normals.
     ///
     /// # Errors
-    /// As [`PartStore::save`].
+    /// The errors of [`PartStore::save`].
     fn save_table(&self, _: &TableKey, _: &[f64]) -> Result<(), PartFault> {
         Ok(())
     }
 }
 
-/// What was wrong with the file of a part. No result depends on it: the part is made again.
+/// A fault of a part's file. No result depends on it, because the part is computed again.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {what}")]
 pub struct PartFault {
-    /// The file.
+    /// Name of the file.
     pub file: String,
-    /// What was wrong.
+    /// Description of the fault.
     pub what: String,
-    /// Whether it was to be written.
+    /// Whether the fault occurred while writing.
     pub writing: bool,
 }
 
@@ -156,7 +158,7 @@ pub(crate) struct KnownColumns {
 }
 
 impl KnownColumns {
-    /// Columns of a tooth: at hand, from the store, or made.
+    /// Columns of a tooth: from memory, from the store, or computed.
     pub fn of<E>(
         &mut self,
         (tooth, partners, sizes): (u32, &[u32], &[u32]),
@@ -191,7 +193,7 @@ impl KnownColumns {
         columns
     }
 
-    /// Lets go what a store has and none of these teeth needs.
+    /// Frees the columns that a store has and none of these teeth needs.
     pub fn release(&mut self, teeth: &[u32]) {
         self.columns.retain(|(c, stored)| !stored || teeth.contains(&c.tooth));
     }

@@ -19,12 +19,12 @@ pub(crate) enum Compliance {
 /// A gear reduced to the flanks of some neighbouring teeth.
 #[derive(Debug, Clone)]
 pub struct ReducedGear {
-    /// Teeth, counter-clockwise, 0 .. z-1, as the frame of the matrices numbers them.
+    /// Teeth, counter-clockwise, 0 .. z-1, numbered as in the frame of the matrices.
     pub teeth: Vec<u32>,
     /// Sides of the teeth whose nodes are kept.
     pub sides: Vec<Side>,
-    /// Boundary nodes, numbers of the mesh, ascending (of a gear reduced to grids: 0, 1, ... through its grids in
-    /// turn); coordinate 3 i + axis belongs to `nodes[i]`.
+    /// Boundary nodes, as numbers of the mesh, ascending (for a gear reduced to grids: 0, 1, ... through its grids in
+    /// order). Coordinate 3 i + axis belongs to `nodes[i]`.
     pub nodes: Vec<u32>,
     compliance: OnceLock<Mat<f64>>,
     /// What C is made of, where its teeth are all alike.
@@ -41,8 +41,9 @@ impl ReducedGear {
         Self { teeth, sides, nodes, compliance, blocks, stiffness: OnceLock::new() }
     }
 
-    /// C, mm/N, 3 n x 3 n; of a gear condensed by its layers ([`crate::LayerStack`]) only the columns of its first
-    /// tooth, which the first nodes are on. Of alike teeth it is made when first asked for: contact by tables does not.
+    /// C, mm/N, 3 n x 3 n. For a gear condensed by its layers ([`crate::LayerStack`]) it has only the columns of its
+    /// first tooth, whose nodes come first. For identical teeth it is computed on first request, because contact by
+    /// tables does not need it.
     pub fn compliance(&self) -> &Mat<f64> {
         let joined = || self.blocks.as_ref().map(|blocks| blocks.columns(self.nodes.len())).unwrap_or_else(Mat::new);
         self.compliance.get_or_init(joined)
@@ -53,7 +54,7 @@ impl ReducedGear {
         self.blocks.as_ref()
     }
 
-    /// Number of coordinates, three a boundary node.
+    /// Number of coordinates, three per boundary node.
     pub fn coordinates(&self) -> usize {
         3 * self.nodes.len()
     }
@@ -63,9 +64,9 @@ impl ReducedGear {
         self.nodes.binary_search(&node).ok()
     }
 
-    /// K^ = C^-1, N/mm, 3 n x 3 n, made when first asked for: contact needs C alone.
+    /// K^ = C^-1, N/mm, 3 n x 3 n, computed on first request, because contact needs only C.
     ///
-    /// `None` where C is singular (a grid with more nodes than the mesh can tell apart), or not known as a whole.
+    /// `None` if C is singular (a grid has more nodes than the mesh can resolve) or is not known completely.
     pub fn stiffness(&self) -> Option<&Mat<f64>> {
         let inverse = || {
             if self.compliance().ncols() < self.compliance().nrows() {
@@ -93,7 +94,7 @@ impl ReducedGear {
         Some(f)
     }
 
-    /// Strain energy u' K^ u / 2, N mm; NaN where there is no K^ or `u` is of another window.
+    /// Strain energy u' K^ u / 2, N mm; NaN if there is no K^ or `u` belongs to another window.
     pub fn strain_energy(&self, u: &[f64]) -> f64 {
         if u.len() != self.coordinates() {
             return f64::NAN;
@@ -102,12 +103,12 @@ impl ReducedGear {
     }
 }
 
-/// A reduced gear at its place on the gear.
+/// A reduced gear and its position on the gear.
 #[derive(Debug, Clone)]
 pub struct Window {
     /// Matrices, shared by all windows of a cyclic gear.
     pub reduced: Arc<ReducedGear>,
-    /// Pitches by which the frame of the matrices is turned against the gear's own frame: tooth t of the matrices is
-    /// the gear's tooth t + `shift` (mod z).
+    /// Pitches by which the frame of the matrices is rotated relative to the gear's own frame: tooth t of the matrices
+    /// is the gear's tooth t + `shift` (mod z).
     pub shift: u32,
 }

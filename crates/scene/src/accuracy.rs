@@ -1,4 +1,4 @@
-//! How exact the headline numbers are to be: `[accuracy]`.
+//! Accuracy requested for the headline values: `[accuracy]`.
 
 use std::fmt;
 
@@ -7,17 +7,17 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 use crate::schema::{Asked, Quantity};
 use crate::{Scene, SceneError, Setting, source::Source};
 
-/// How far a number may be off.
+/// Tolerance for the error of a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
-    /// As a share of the number itself.
+    /// As a share of the value itself.
     Relative(f64),
-    /// In the unit of the number.
+    /// In the unit of the value.
     Absolute(f64),
 }
 
 impl Tolerance {
-    /// The largest error of a number that has this value, in its unit.
+    /// Largest permitted error of a quantity with this value, in its unit.
     pub fn of(self, value: f64) -> f64 {
         match self {
             Self::Relative(share) => share * value.abs(),
@@ -25,7 +25,7 @@ impl Tolerance {
         }
     }
 
-    /// As it is written for a quantity: `1 %`, `0.05 um`.
+    /// Text as in a scene: `1 %`, `0.05 um`.
     pub fn words(self, quantity: Quantity) -> String {
         match self {
             Self::Relative(share) => format!("{} %", 1e6 * share / 1e4),
@@ -33,10 +33,10 @@ impl Tolerance {
         }
     }
 
-    /// From words: a number above zero with `%` or the quantity's unit behind it.
+    /// Parses a number above zero followed by `%` or the quantity's unit.
     ///
     /// # Errors
-    /// [`ToleranceError`].
+    /// [`ToleranceError`] for any other text.
     pub fn parse(words: &str, quantity: Quantity) -> Result<Self, ToleranceError> {
         let wrong = || ToleranceError { words: words.to_owned(), unit: quantity.unit() };
         let words = words.trim();
@@ -54,30 +54,30 @@ impl Tolerance {
     }
 }
 
-/// Words that are no tolerance.
+/// A text that is not a tolerance.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{words}` is not an accuracy")]
 pub struct ToleranceError {
-    /// As written.
+    /// The text as written.
     pub words: String,
-    /// Unit that it might have had.
+    /// Unit that the quantity has.
     pub unit: &'static str,
 }
 
 impl ToleranceError {
-    /// How to write it.
+    /// Hint: how to write a tolerance.
     pub fn hint(&self) -> String {
         let amount = format!("0.05 {}", self.unit);
         format!("write a share, \"1 %\" (up to 100 %), or a number above zero with its unit, \"{}\"", amount.trim_end())
     }
 }
 
-/// What a scene asks of the accuracy of its headline numbers.
+/// Accuracy that a scene requests for its headline values.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct AccuracyScene(Vec<(Quantity, Tolerance)>);
 
 impl AccuracyScene {
-    /// Accuracy of these tolerances; of two for one quantity the last one holds.
+    /// Accuracy with these tolerances; if a quantity occurs twice, the last tolerance counts.
     pub fn new(tolerances: impl IntoIterator<Item = (Quantity, Tolerance)>) -> Self {
         let mut all: Vec<(Quantity, Tolerance)> = Vec::new();
         for (quantity, tolerance) in tolerances {
@@ -88,17 +88,17 @@ impl AccuracyScene {
         Self(all)
     }
 
-    /// Whether nothing is asked.
+    /// Whether no accuracy is requested.
     pub fn is_none(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What is asked, in the order of the quantities.
+    /// Requested tolerances in the order of the quantities.
     pub fn tolerances(&self) -> &[(Quantity, Tolerance)] {
         &self.0
     }
 
-    /// What is asked of a quantity.
+    /// Requested tolerance of a quantity.
     pub fn of(&self, quantity: Quantity) -> Option<Tolerance> {
         self.0.iter().find(|(asked, _)| *asked == quantity).map(|(_, tolerance)| *tolerance)
     }
@@ -136,18 +136,18 @@ impl fmt::Display for AccuracyScene {
 }
 
 impl Scene {
-    /// Whether model, mesh, slices and positions are left to the program.
+    /// Whether the program chooses model, mesh, slices and positions.
     pub fn is_auto(&self) -> bool {
         self.analysis.model == crate::Model::Auto
     }
 }
 
 impl Setting {
-    /// `1%` of the mean static transmission error, or `max_pressure=5%`: that key of `[accuracy]`, and the model left to
-    /// the program. Messages name it `--accuracy`.
+    /// Parses `1%` (of the mean static transmission error) or `max_pressure=5%` into that key of `[accuracy]`, with the
+    /// model chosen by the program. Messages name it `--accuracy`.
     ///
     /// # Errors
-    /// [`SceneError::NoKey`] where what stands before `=` is none.
+    /// [`SceneError::NoKey`] if the text before `=` is not a key.
     pub fn accuracy(written: &str) -> Result<[Self; 2], SceneError> {
         let (key, amount) = written.split_once('=').unwrap_or((Quantity::MeanSte.key(), written));
         let asked = Self::of(&format!("accuracy.{}", key.trim()), &amount.trim().into())?;

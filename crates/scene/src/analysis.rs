@@ -1,4 +1,4 @@
-//! What is computed, with which model.
+//! The analysis and its model.
 
 use crate::schema::{Analysis, Model, Reduction};
 
@@ -8,19 +8,19 @@ impl Analysis {
         Some(self.cycles).filter(|cycles| *cycles > 0)
     }
 
-    /// Whether gears are to be condensed without the symmetry of their teeth.
+    /// Whether gears are condensed without using the symmetry of their teeth.
     pub fn is_general(&self) -> bool {
         self.reduction == Some(Reduction::General)
     }
 }
 
 impl Model {
-    /// Whether gears are known from their flanks, and contact is solved between them.
+    /// Whether gears are reduced to their flanks, with contact solved between them.
     pub fn is_reduced(self) -> bool {
         matches!(self, Self::Reduced | Self::ReducedModes)
     }
 
-    /// Whether it is made of gears that are known from their flanks: these, or a map of their contact.
+    /// Whether the model is based on gears reduced to their flanks: these themselves, or a map of their contact.
     pub fn has_reduced_gears(self) -> bool {
         self.is_reduced() || self == Self::Mapped
     }

@@ -1,16 +1,16 @@
-//! A scene made in code, without a file.
+//! Scenes made in code, without a file.
 
 use std::path::{Path, PathBuf};
 
 use crate::{Scene, SceneError, Setting};
 
-/// A value of a key: a number, a word, a switch, a list, a table.
+/// Value of a key: number, word, switch, list or table.
 pub use toml::Value;
 
-/// A scene that is put together key by key and then checked as the text of a file is.
+/// A scene that is built key by key and then checked like the text of a file.
 ///
-/// Six keys have no default, each with a method of its own; every key of [`all_keys`](crate::all_keys) is set by
-/// [`set`](Self::set). Of two values of one key the last one holds.
+/// Six keys have no default; each has its own method. Every key of [`all_keys`](crate::all_keys) is set by
+/// [`set`](Self::set). If a key is set twice, the last value counts.
 ///
 /// ```
 /// let scene = scene::Scene::builder()
@@ -47,8 +47,8 @@ impl Scene {
 }
 
 impl SceneBuilder {
-    /// Number of teeth, and helix angle at the reference cylinder in degrees, right hand positive; the wheel's hand
-    /// follows.
+    /// Number of teeth, and helix angle at the reference cylinder in degrees, right hand positive. The hand of the
+    /// wheel follows from it.
     #[must_use]
     pub fn pinion(self, teeth: u32, helix_angle_deg: f64) -> Self {
         self.set("pinion.teeth", teeth).set("pinion.helix_angle_deg", helix_angle_deg)
@@ -78,24 +78,24 @@ impl SceneBuilder {
         self.set("operation.torque_nm", torque)
     }
 
-    /// The value of any key, in the unit that its name ends in. Keys have dots before them (`motion.sweep.from_rpm`); a
-    /// number among the parts counts the entries of a list that is set before, from 0.
+    /// Sets any key, in the unit in which its name ends. Keys are dotted paths (`motion.sweep.from_rpm`). A number in
+    /// the path is the index, from 0, of an entry of a list that has been set before.
     #[must_use]
     pub fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.values.push((key.to_owned(), value.into()));
         self
     }
 
-    /// The folder that paths in the scene are relative to; else the one that the process runs in.
+    /// Sets the folder to which paths in the scene are relative; by default the current folder of the process.
     #[must_use]
     pub fn relative_to(self, folder: &Path) -> Self {
         Self { folder: folder.to_owned(), ..self }
     }
 
-    /// The checked scene with every default filled in.
+    /// The checked scene with all defaults.
     ///
     /// # Errors
-    /// [`SceneError`], as of a file; where that names a line, this names the key.
+    /// [`SceneError`], as for a file; instead of a line it names the key.
     pub fn build(&self) -> Result<Scene, SceneError> {
         let settings: Vec<Setting> =
             self.values.iter().map(|(key, value)| Setting::of(key, value)).collect::<Result<_, _>>()?;

@@ -1,5 +1,4 @@
-//! What the rows of a table become when it is checked: the struct of what is meant, its range checks, its defaults, and
-//! what the written scene has of it.
+//! Macros for the checked form of a table: its struct, range checks, defaults, and the serialised scene.
 
 macro_rules! checked_table {
     ($checked:ident [$($derive:ident)*], $raw:ident, $table:ident: $about:literal

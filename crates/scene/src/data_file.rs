@@ -1,4 +1,5 @@
-//! Meshes, topographies, pitch errors, load spectra and tables of materials that a document names: each file is read once.
+//! Files that a document names: meshes, topographies, pitch errors, load spectra, tables of materials. Each file is
+//! read once.
 
 use std::{
     collections::BTreeMap,
@@ -20,7 +21,7 @@ use crate::{
     origin::{Origin, resolved},
 };
 
-/// A file with what it says. In a scene it is its path, as the user wrote it; two are equal when path and bytes are.
+/// A file and its content. In a scene it is its path as the user wrote it. Two are equal if path and bytes are equal.
 pub struct DataFile<T> {
     path: PathBuf,
     blake3: blake3::Hash,
@@ -28,22 +29,22 @@ pub struct DataFile<T> {
 }
 
 impl<T> DataFile<T> {
-    /// The path as the scene names it.
+    /// The path as written in the scene.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What the file said when it was read, in mm and rad.
+    /// The content of the file when it was read, in mm and rad.
     pub fn values(&self) -> &T {
         &self.values
     }
 
-    /// BLAKE3 of its bytes as they were read, hexadecimal.
+    /// BLAKE3 of its bytes when it was read, hexadecimal.
     pub fn blake3(&self) -> String {
         self.blake3.to_hex().to_string()
     }
 
-    /// Replaces the path by another one of the same file.
+    /// Replaces the path by another path of the same file.
     pub fn set_path(&mut self, path: PathBuf) {
         self.path = path;
     }
@@ -128,7 +129,7 @@ impl<T> Default for Known<T> {
 }
 
 impl DataFiles {
-    /// The files that the document names and that nobody has written to since they were read: for the next text of it.
+    /// The files of the document that have not been modified since they were read, for its next text.
     pub fn unchanged(&self) -> Self {
         Self {
             topographies: self.topographies.unchanged(),
@@ -140,7 +141,7 @@ impl DataFiles {
         }
     }
 
-    /// A file that was read, by where it is; `path` is its name in the document.
+    /// A file that has been read, found by its full path; `path` is its name in the document.
     pub fn known<T: Content>(&self, whole: &Path, path: &Path) -> Option<DataFile<T>> {
         let mut all = T::known(self).lock();
         let own = all.get_mut(whole)?;
@@ -148,10 +149,10 @@ impl DataFiles {
         Some(DataFile { path: path.to_owned(), ..own.file.clone() })
     }
 
-    /// The file that `path` is in a document at `document`, read now.
+    /// Reads the file with the name `path` in a document at `document`.
     ///
     /// # Errors
-    /// [`SceneError::DataFile`], [`SceneError::Mesh`]: it cannot be read or understood.
+    /// [`SceneError::DataFile`], [`SceneError::Mesh`] if it cannot be read or parsed.
     pub fn read<T: Content>(&self, origin: Origin, document: &Path, path: PathBuf) -> Result<DataFile<T>, SceneError> {
         let whole = resolved(document, &path);
         let before = match origin {

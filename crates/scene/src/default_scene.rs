@@ -1,4 +1,4 @@
-//! The scene that is part of the program, and the files that a scene names.
+//! The scene built into the program, and the files that a scene names.
 
 use std::{path::Path, sync::Arc};
 
@@ -9,30 +9,31 @@ const NAME: &str = "default scene";
 const TEXT: &str = include_str!("../../../scenes/default.toml");
 
 impl Scene {
-    /// The default scene, `scenes/default.toml` of the repository: it is part of the program with its meshes and needs
-    /// no file.
+    /// The default scene, `scenes/default.toml` of the repository. It is built into the program with its meshes and
+    /// needs no file.
     ///
     /// # Errors
-    /// None, as a test holds; the type is that of every scene.
+    /// No error occurs, as a test ensures; the type is that of every scene.
     pub fn default_scene() -> Result<Self, SceneError> {
         Self::default_scene_with(&[])
     }
 
-    /// The default scene with some of its keys set otherwise.
+    /// The default scene with some keys set to other values.
     ///
     /// # Errors
-    /// [`SceneError`]: what the settings do not allow.
+    /// [`SceneError`] if a setting is not permitted.
     pub fn default_scene_with(settings: &[Setting]) -> Result<Self, SceneError> {
         Document::default_scene().scene(settings)
     }
 
-    /// Whether it is the default scene of the program.
+    /// Whether this is the default scene of the program.
     pub fn is_default_scene(&self) -> bool {
         self.written.origin() == Origin::Program
     }
 
-    /// Every file that the scene names, as it names it, with the BLAKE3 (hexadecimal) of its bytes as they were read:
-    /// meshes, topographies, pitch errors, pinion first, then tables of materials and lubricants, load spectra; each once.
+    /// All files that the scene names, as written, with the BLAKE3 (hexadecimal) of their bytes when they were read:
+    /// meshes, topographies, pitch errors, those of the pinion first, then tables of materials and lubricants, load
+    /// spectra; each once.
     pub fn files(&self) -> Vec<(&Path, String)> {
         let mut all: Vec<(&Path, String)> = Vec::new();
         let rating = self.rating.iter().flat_map(|rating| {

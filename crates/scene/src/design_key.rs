@@ -1,25 +1,25 @@
-//! Keys of what neither meshes nor matrices know, and scenes that differ in one of them.
+//! Keys on which neither meshes nor matrices depend, and scenes that differ in one of them.
 
 use std::sync::Arc;
 
 use crate::{Document, OutputScene, Scene, SceneError, Setting};
 
 impl Scene {
-    /// Whether a key is of micro-geometry or misalignment.
+    /// Whether a key belongs to micro-geometry or misalignment.
     pub fn is_design_key(key: &str) -> bool {
         key.contains(".modification.") || key.starts_with("pair.misalignment.")
     }
 
-    /// A step of such a key that moves flanks by some 1e-5 mm, for differences; in the key's unit.
+    /// A step of such a key that moves flanks by about 1e-5 mm, for differences; in the unit of the key.
     pub fn design_step(key: &str) -> f64 {
         if key.ends_with("_um") { 0.01 } else { 1e-3 }
     }
 
-    /// This scene with another number; of a modification of both flanks on the driving ones. It asks for no
-    /// derivatives.
+    /// This scene with another value of a key; for a modification of both flanks, on the driving ones. The new scene
+    /// requests no derivatives.
     ///
     /// # Errors
-    /// [`SceneError`]: what the scene does not allow.
+    /// [`SceneError`] if the scene does not permit the value.
     pub fn with_number(&self, key: &str, value: f64) -> Result<Self, SceneError> {
         let mut parts: Vec<&str> = key.split('.').collect();
         let of_flank = parts.get(1) == Some(&"modification");

@@ -1,5 +1,5 @@
-//! A document as it was read: its tables and where they stand, and the files that it names. Read once, whatever becomes
-//! of the file: a pipe can be read no second time, and all cases of a plan are of one document.
+//! A document as it was read: its tables with their places, and the files that it names. It is read once, whatever
+//! happens to the file later: a pipe cannot be read twice, and all cases of a plan belong to one document.
 
 use std::{
     ops::Range,
@@ -20,8 +20,8 @@ use crate::{
     tree::{Fault, Node},
 };
 
-/// The text of a file in tables: a pair's scene, a gearbox file, a plan, a study, an optimisation. Clones are the same
-/// one; what a scene is made of it by settings holds no text.
+/// The parsed text of a file: a pair's scene, a gearbox file, a plan, a study or an optimisation. Clones share the same
+/// document; a scene made from it by settings holds no text.
 #[derive(Debug, Clone)]
 pub struct Document(Arc<Read>);
 
@@ -39,7 +39,7 @@ impl Document {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`SceneError::Read`].
+    /// [`SceneError::Read`] if it cannot be read.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
         Self::read_beside(file, Arc::default())
     }
@@ -50,14 +50,14 @@ impl Document {
         Ok(Self::made(text, file, Origin::Disk, files))
     }
 
-    /// A text; `file` is what messages name and what paths are relative to. What is wrong with it is told when it is
-    /// asked what it says.
+    /// A document from a text. `file` is used in messages, and paths are relative to its folder. Errors in the text are
+    /// reported when its content is requested.
     pub fn new(text: String, file: &Path) -> Self {
         Self::made(text, file, Origin::Disk, Arc::default())
     }
 
-    /// The document with another text, as an editor has it. Of the files that both name those are read again that somebody
-    /// has written to.
+    /// The document with another text, as in an editor. Of the files named by both texts, those that have been modified
+    /// are read again.
     pub fn edited(&self, text: String) -> Self {
         Self::made(text, self.file(), self.origin(), Arc::new(self.files().unchanged()))
     }
@@ -67,7 +67,7 @@ impl Document {
         Self(Arc::new(Read { file: file.to_owned(), text, root, origin, files, places: OnceLock::new() }))
     }
 
-    /// Where it stands.
+    /// Path of the document.
     pub fn file(&self) -> &Path {
         &self.0.file
     }
@@ -78,12 +78,12 @@ impl Document {
         self.file().file_stem().map_or_else(|| "untitled".into(), |stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Kind of the document by its tables; `None` where it has none of a known kind, or is no TOML.
+    /// Kind of the document, determined by its tables; `None` if it has no table of a known kind, or is not TOML.
     pub fn kind(&self) -> Option<DocumentKind> {
         self.0.root.as_ref().ok().and_then(DocumentKind::of)
     }
 
-    /// Kind of what it describes, whatever is varied or optimised of it; `None` where it describes nothing.
+    /// Kind of the machine that it describes, whatever is varied or optimised; `None` if it describes none.
     pub fn base_kind(&self) -> Option<DocumentKind> {
         self.0.root.as_ref().ok().and_then(DocumentKind::of_machine)
     }
@@ -134,7 +134,7 @@ impl Document {
         blake3::hash(self.0.text.as_bytes()).to_hex().to_string()
     }
 
-    /// Whether nothing is in it.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.0.text.is_empty()
     }

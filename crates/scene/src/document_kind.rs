@@ -1,4 +1,4 @@
-//! Which kind of file a text is, for who gives one to a command that wants another.
+//! Determines the kind of a file, for messages when a command needs another kind.
 
 use std::fmt;
 
@@ -7,15 +7,15 @@ use crate::tree::Node;
 /// A kind of TOML file that the program reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DocumentKind {
-    /// A pair of gears.
+    /// A scene: a pair of gears.
     Scene,
-    /// Shafts, bearings and meshes.
+    /// A gearbox: shafts, bearings and meshes.
     Gearbox,
-    /// Keys of a scene that are varied.
+    /// A plan: varied keys of a scene.
     Plan,
-    /// Scenes side by side.
+    /// A study: several scenes for comparison.
     Study,
-    /// Keys of a scene whose best values are searched.
+    /// An optimisation: keys of a scene whose best values are searched.
     Optimisation,
 }
 
@@ -43,7 +43,7 @@ impl fmt::Display for DocumentKind {
 }
 
 impl DocumentKind {
-    /// The subcommand that takes such a file.
+    /// The subcommand for such a file.
     pub fn command(self) -> &'static str {
         match self {
             Self::Optimisation => "optimise",

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, and where.
+//! Errors of a scene, with their places.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -11,110 +11,110 @@ use rating::RatingError;
 
 use crate::DocumentKind;
 
-/// A complaint about a scene file.
+/// An error in a scene file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The file cannot be read.
     #[error("{}: cannot be read: {source}", file.display())]
     Read {
-        /// The scene.
+        /// Path of the scene.
         file: PathBuf,
-        /// Why.
+        /// Cause of the failure.
         source: std::io::Error,
     },
-    /// It is no TOML.
+    /// The file is not valid TOML.
     #[error("{place}: {message}")]
     Syntax {
-        /// Where reading stopped.
+        /// Place at which parsing stopped.
         place: Place,
         /// What was expected.
         message: String,
-        /// What may have been meant.
+        /// What was probably intended.
         advice: Option<Cow<'static, str>>,
     },
-    /// A key that no table of this name has.
+    /// A key that does not exist in its table.
     #[error("{place}: unknown key `{key}`")]
     UnknownKey {
-        /// Where it stands.
+        /// Place of the key.
         place: Place,
-        /// As written.
+        /// The key as written.
         key: String,
-        /// What may have been meant.
+        /// What was probably intended.
         advice: String,
     },
-    /// A value of another type.
+    /// A value of the wrong type.
     #[error("{place}: `{key}` must be {expected}, found {found}")]
     WrongType {
-        /// Where it stands.
+        /// Place of the value.
         place: Place,
-        /// The key.
+        /// Name of the key.
         key: String,
-        /// The type wanted.
+        /// Type expected.
         expected: Box<str>,
-        /// What stands there.
+        /// Value found.
         found: String,
         /// How to write it.
         advice: String,
     },
-    /// A value that makes no sense.
+    /// A value outside its range.
     #[error("{place}: `{key}` is {value}, allowed is {allowed}")]
     OutOfRange {
-        /// Where it stands.
+        /// Place of the value.
         place: Place,
-        /// The key.
+        /// Name of the key.
         key: String,
-        /// As written.
+        /// The value as written.
         value: String,
-        /// Range or list.
+        /// Permitted range or list.
         allowed: Box<str>,
-        /// What may have been meant.
+        /// What was probably intended.
         advice: Option<String>,
     },
     /// A file of another kind.
     #[error("{}: this is {found}, and {wanted} is wanted", file.display())]
     AnotherKind {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// What it is.
+        /// Kind of the file.
         found: DocumentKind,
-        /// What was to be read.
+        /// Kind that was expected.
         wanted: DocumentKind,
     },
-    /// Keys without a default that are not there.
+    /// Required keys are missing.
     #[error("{}: missing {}", file.display(), keys.join(", "))]
     Missing {
-        /// The scene.
+        /// Path of the scene.
         file: PathBuf,
-        /// Each as `` `[table] key` ``.
+        /// The missing keys, each as `` `[table] key` ``.
         keys: Vec<String>,
     },
-    /// Something this version cannot do; never ignored.
+    /// A feature that this version does not have; it is never ignored.
     #[error("{place}: `{key}` asks for {what}, which this version cannot do")]
     NotYet {
-        /// Where it stands.
+        /// Place of the key.
         place: Place,
-        /// The key.
+        /// Name of the key.
         key: String,
-        /// What it asks for.
+        /// Feature that is requested.
         what: String,
         /// What to do instead.
         instead: String,
     },
-    /// A key set beside the file that cannot be read.
+    /// A key set in addition to the file cannot be parsed.
     #[error("{label}: {what}")]
     Setting {
-        /// As the user wrote it.
+        /// The setting as the user wrote it.
         label: String,
         /// What is wrong with it.
         what: String,
     },
-    /// What a file and the words beside it ask for together, and what cannot be.
+    /// The file and the additional words request something impossible together.
     #[error("{}: {what}", file.display())]
     Asked {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// What cannot be.
+        /// What is impossible.
         what: String,
         /// Hint: the action that cures it.
         advice: String,
@@ -122,29 +122,29 @@ pub enum SceneError {
     /// A scene made in code sets an unknown key.
     #[error("unknown key `{key}`")]
     NoKey {
-        /// As the program says it.
+        /// The key as the program names it.
         key: String,
     },
-    /// Two keys that do not go together, or a value against the rest of the scene.
+    /// Two keys that exclude each other, or a value that contradicts the rest of the scene.
     #[error("{place}: {what}")]
     Conflict {
-        /// Where the second of them stands.
+        /// Place of the second key.
         place: Place,
         /// The contradiction.
         what: String,
         /// Hint: the action that cures it.
         advice: String,
     },
-    /// No running pair can be made of the data.
+    /// No running pair can be made from the data.
     #[error("{}: [{table}]: {source}", at(place.as_ref(), file))]
     Geometry {
-        /// The key at fault, where it is written.
+        /// Place of the wrong key, if it is in the file.
         place: Option<Place>,
-        /// The scene.
+        /// Path of the scene.
         file: PathBuf,
-        /// `pinion`, `wheel` or `pair`.
+        /// Table concerned: `pinion`, `wheel` or `pair`.
         table: &'static str,
-        /// What the geometry says.
+        /// Error of the geometry.
         source: Box<GeometryError>,
     },
     /// A topography or a list of pitch errors that cannot be read.
@@ -153,7 +153,7 @@ pub enum SceneError {
     /// A table of materials, lubricants or loads that cannot be read.
     #[error("{}: {source}", file.display())]
     RatingTable {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
         /// What is wrong with it.
         source: Box<RatingError>,
@@ -190,19 +190,19 @@ impl SceneError {
         }
     }
 
-    /// The complaint alone, without the place that stands before it.
+    /// The message without the place before it.
     pub fn without_place(&self) -> String {
         let whole = self.to_string();
         let place = self.place().map(|place| format!("{place}: "));
         place.and_then(|p| whole.strip_prefix(&p).map(str::to_owned)).unwrap_or(whole)
     }
 
-    /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
+    /// The line of the error, with a mark; `None` if it concerns the whole file or no file.
     pub fn excerpt(&self) -> Option<&str> {
         self.place()?.excerpt()
     }
 
-    /// Where the value stands that is complained of; `None` where it is about the whole file or about no file.
+    /// Place of the wrong value; `None` if the error concerns the whole file or no file.
     pub fn place(&self) -> Option<&Place> {
         match self {
             Self::Read { .. }
@@ -224,7 +224,7 @@ impl SceneError {
         }
     }
 
-    /// The key that is complained of, with its tables where it was set beside a file; `None` where there is none.
+    /// The key of the error, with its tables if it was set in addition to a file; `None` if there is none.
     pub fn key(&self) -> Option<&str> {
         if let Some(Place::Setting { label }) = self.place() {
             return Some(label);
@@ -243,7 +243,7 @@ impl SceneError {
         }
     }
 
-    /// What the user can do next; the command prints it as `hint: ...`.
+    /// Hint for the user; the command prints it as `hint: ...`.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Read { source, .. } if source.kind() == std::io::ErrorKind::InvalidData => {

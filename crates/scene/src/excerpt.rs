@@ -1,4 +1,4 @@
-//! A line of a file with a mark below what is meant.
+//! A line of a file with a mark below the wrong part.
 
 use std::ops::Range;
 

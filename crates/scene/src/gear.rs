@@ -1,11 +1,11 @@
-//! The gears, and what they share.
+//! The gears, and the data common to both.
 
 use mesh::FaceResolution;
 
 use crate::schema::{BoreScene, GearScene, MisalignmentScene, PairScene};
 
 impl BoreScene {
-    /// Whether all of the bore is rigid.
+    /// Whether the whole bore is rigid.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -24,7 +24,7 @@ impl GearScene {
         if self.is_internal() { -i64::from(self.teeth) } else { i64::from(self.teeth) }
     }
 
-    /// Whether it is a ring.
+    /// Whether the gear is a ring.
     pub fn is_internal(&self) -> bool {
         self.shaper.is_some()
     }
@@ -34,15 +34,15 @@ impl GearScene {
         self.helix_angle_deg.to_radians()
     }
 
-    /// Face width, mm: its own, or that of the pair.
+    /// Face width, mm: the gear's own, otherwise that of the pair.
     pub fn width_mm(&self, pair: &PairScene) -> f64 {
         self.face_width_mm.unwrap_or(pair.face_width_mm)
     }
 }
 
 impl PairScene {
-    /// Heights between which gears of some face widths (mm) both have flanks, over the pinion's mid-face, mm; the first
-    /// is above the second where they pass each other.
+    /// Range of heights, measured from the pinion's mid-face, in which gears with given face widths (mm) both have
+    /// flanks, mm. The first value is above the second if they pass each other.
     pub fn common_face_mm(&self, [pinion, wheel]: [f64; 2]) -> [f64; 2] {
         let offset = self.mid_face_offset_mm.unwrap_or(0.0);
         [(-0.5 * pinion).max(offset - 0.5 * wheel), (0.5 * pinion).min(offset + 0.5 * wheel)]

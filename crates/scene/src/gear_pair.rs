@@ -8,7 +8,7 @@ impl Scene {
     /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors.
     ///
     /// # Errors
-    /// [`SceneError::Geometry`] when no running pair can be made of the data.
+    /// [`SceneError::Geometry`] if no running pair can be made from the data.
     pub fn gear_pair(&self) -> Result<GearPair, SceneError> {
         let gear = |whose: &'static str, of: &GearScene| {
             let nominal = Gear::new(data(self, of)).map_err(|e| self.geometry_fault(whose, e))?;

@@ -1,4 +1,4 @@
-//! Which keys of a scene a complaint of the geometry is about.
+//! The keys of a scene that an error of the geometry concerns.
 
 use geometry::GeometryError;
 

@@ -1,4 +1,4 @@
-//! What someone who wrote a wrong value may do next.
+//! Hints for the user after a wrong value.
 
 use std::{borrow::Cow, ops::Range};
 

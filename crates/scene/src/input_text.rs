@@ -1,4 +1,4 @@
-//! Text that the user hands to a command: a scene, a study, gear data.
+//! Text files that the user gives to a command: a scene, a study, gear data.
 
 use std::{
     fs::File,
@@ -11,11 +11,11 @@ use files::{most, read_regular_text};
 /// What a pipe may deliver at the most, bytes; a scene has a few thousand.
 const MOST: u64 = 16 << 20;
 
-/// The text of a file; also of what the shell has opened already (`/dev/stdin`, `<(command)`), up to 16 MB.
+/// The text of a file, up to 16 MB; also of a file opened by the shell (`/dev/stdin`, `<(command)`).
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for folders, devices and named pipes, and for a pipe without an end; else as the system
-/// says.
+/// [`ErrorKind::InvalidInput`] for folders, devices and named pipes, and for a pipe without an end; otherwise the error
+/// of the operating system.
 pub fn read_text(path: &Path) -> Result<String> {
     if !is_handed_over(path) {
         return read_regular_text(path, most::DOCUMENT);

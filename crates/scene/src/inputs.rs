@@ -1,4 +1,4 @@
-//! Files that a document names by a key.
+//! Files named by keys of a document.
 
 use std::{fs, path::PathBuf};
 

@@ -1,21 +1,21 @@
-//! Tables of keys as Markdown: what `docs/scene.md` lists.
+//! Tables of keys as Markdown, for `docs/scene.md`.
 
 use crate::{
     schema::DOCUMENTS,
     table::{Key, Table, ValueKind},
 };
 
-/// A table of keys of a kind of document.
+/// A table of keys in a kind of document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyTable {
     /// Document and table: `pair`, `pair pair.misalignment`, `gearbox shaft.section`.
     pub name: String,
-    /// What the table is about, then one row a key: name, default, what is allowed, meaning.
+    /// Subject of the table, then one row per key: name, default, permitted values, meaning.
     pub markdown: String,
 }
 
-/// Every table of keys of every kind of document once. Tables with the same keys
-/// (`[pinion.mesher]`, `[wheel.mesher]`) are one; one whose keys its parent table has as well is a row of that.
+/// All tables of keys of every kind of document, each once. Tables with the same keys (`[pinion.mesher]`,
+/// `[wheel.mesher]`) are merged; a table whose keys its parent table has as well becomes a row of the parent.
 ///
 /// ```
 /// let tables = scene::key_tables();

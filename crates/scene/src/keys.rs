@@ -1,12 +1,12 @@
-//! Which keys there are, and which of them a misspelt one is nearest to.
+//! All keys, and the nearest key to a misspelt one.
 
-/// Tables of a kind of file with their keys; the first one is the file itself.
+/// Tables of a kind of file with their keys; the first entry is the file itself.
 pub type Tables = fn() -> Vec<(String, Vec<&'static str>)>;
 
-/// The other kind of machine: what messages call it, and its tables.
+/// The other kind of machine: its name in messages, and its tables.
 pub type Neighbour = (&'static str, Tables);
 
-/// The nearest of `known` if it is near enough to be meant, in small or capital letters.
+/// The nearest of `known` if it is near enough to be intended; upper and lower case are equal.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     // Words of very different length are never alike, and to compare long ones costs the product of their lengths.
     let length = word.chars().count();

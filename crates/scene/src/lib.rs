@@ -1,10 +1,10 @@
-//! The scene: what a user wrote, read and checked before any work starts.
+//! Scene files: reading and checking of the input before any work starts.
 //!
-//! Two steps, so that every complaint can name file, line, key, value and allowed range:
-//! typed words as they stand in the file (`raw`), then the checked [`Scene`] with every default filled in.
-//! Values keep the units of their keys; the methods hand them on in mm, N, MPa, t, s, rad.
+//! Reading has two steps, so that every error can name file, line, key, value and allowed range. The first step gives
+//! typed values as they are in the file (`raw`), the second the checked [`Scene`] with all defaults. Values keep the
+//! units of their keys; methods return them in mm, N, MPa, t, s, rad.
 //!
-//! Files know those of their own row and of the rows above alone:
+//! Each group of files depends only on its own row and on the rows above:
 //!
 //! | layer | files |
 //! |---|---|
@@ -100,10 +100,10 @@ pub use spanned::{Number, Whole, Word};
 pub use starter::{Starter, Steel};
 
 impl Document {
-    /// The scene that it is, with some of its keys set otherwise; of two settings of a key the last one holds.
+    /// The scene of the document, with some keys set to other values. If a key is set twice, the last setting counts.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    /// [`SceneError`]: the first error, with its place in the file or the setting.
     pub fn scene(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
         checked(&raw::source(self, settings))
     }
@@ -122,66 +122,66 @@ fn checked(source: &Source<'_>) -> Result<Scene, SceneError> {
     checked.map_err(|e| source.of_kind(e, DocumentKind::Scene))
 }
 
-/// A checked scene. Serialised it is the scene file again, with every default written out.
+/// A checked scene. Serialised, it is the scene file with all defaults written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Scene {
     /// Name of the case, for titles.
     pub name: String,
-    /// Where the scene stands; paths in it are relative to its folder.
+    /// Path of the scene; paths in it are relative to its folder.
     #[serde(skip)]
     pub file: PathBuf,
-    /// Where its keys stand, and what was read of the files that it names.
+    /// Places of its keys, and the content of the files that it names.
     #[serde(skip)]
     pub written: Written,
-    /// Words of a command line that set keys beside the file.
+    /// Words of a command line that set keys in addition to the file.
     #[serde(skip)]
     pub set: Vec<String>,
-    /// Gear 1.
+    /// Pinion (gear 1).
     pub pinion: GearScene,
-    /// Gear 2.
+    /// Wheel (gear 2).
     pub wheel: GearScene,
-    /// What both share.
+    /// Data common to both gears.
     pub pair: PairScene,
     /// Load and motion.
     pub operation: Operation,
-    /// How flanks press on each other.
+    /// Contact of the flanks.
     pub contact: ContactScene,
-    /// What drives the driver; set exactly when the analysis is dynamic, as the next two.
+    /// Drive of the driver. This and the next two fields are set exactly if the analysis is dynamic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drive: Option<DriveScene>,
-    /// What the torque on the driven gear is beside its mean.
+    /// Variation of the torque on the driven gear about its mean.
     #[serde(skip_serializing_if = "load_is_steady")]
     pub load: Option<TorqueScene>,
-    /// What is computed.
+    /// Analysis to be run.
     pub analysis: Analysis,
-    /// How exact the headline numbers are to be.
+    /// Accuracy requested for the headline values.
     #[serde(skip_serializing_if = "AccuracyScene::is_none")]
     pub accuracy: AccuracyScene,
-    /// Normal modes; set exactly with the model that keeps them.
+    /// Normal modes; set exactly for the model that keeps them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<ModesScene>,
     /// Motion in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionScene>,
-    /// Mesh of a model that has a stiffness instead of flanks; set exactly for these.
+    /// Mesh of a model with a given stiffness instead of flanks; set exactly for such models.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshScene>,
     /// The model with eight coordinates; set exactly for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lumped8: Option<Lumped8Scene>,
-    /// The model with twelve; likewise.
+    /// The model with twelve coordinates; set exactly for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lumped12: Option<Lumped12Scene>,
-    /// Rigid gears on their true flanks; likewise.
+    /// Rigid gears with their true flanks; set exactly for this model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impact: Option<ImpactScene>,
-    /// Lumped shafts; likewise.
+    /// Lumped shafts; set exactly for this model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaft18: Option<Shaft18Scene>,
-    /// Whether it will hold.
+    /// Rating of the pair, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rating: Option<RatingScene>,
-    /// Which files are written beside the three that always are.
+    /// Optional output files, in addition to the three that are always written.
     pub output: OutputScene,
 }
 
@@ -199,42 +199,43 @@ impl Scene {
     /// Reads and checks a scene file.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file.
+    /// [`SceneError`]: the first error, with its place in the file.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
         Self::read_with(file, &[])
     }
 
-    /// Reads and checks a scene file with some of its keys set otherwise; of two settings of a key the last one holds.
+    /// Reads and checks a scene file with some keys set to other values. If a key is set twice, the last setting
+    /// counts.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    /// [`SceneError`]: the first error, with its place in the file or the setting.
     pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         Document::read(file)?.scene(settings)
     }
 
-    /// Checks the text of a scene; `file` is what messages name and what paths are relative to.
+    /// Checks the text of a scene. `file` is used in messages, and paths are relative to its folder.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file.
+    /// [`SceneError`]: the first error, with its place in the file.
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         Self::parse_with(text, file, &[])
     }
 
-    /// Scene of a text with some of its keys set otherwise.
+    /// Scene of a text with some keys set to other values.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    /// [`SceneError`]: the first error, with its place in the file or the setting.
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         Document::new(text.to_owned(), file).scene(settings)
     }
 
-    /// The scene file that says the same with every default written out.
+    /// The equivalent scene file with all defaults written out.
     pub fn to_toml(&self) -> String {
         // A struct of numbers, strings and tables: there is nothing that TOML could refuse.
         toml::to_string(self).unwrap_or_default()
     }
 
-    /// This scene with the paths of its files as they are from anywhere.
+    /// This scene with absolute paths, valid from any folder.
     pub fn standing_alone(&self) -> Self {
         let mut all = self.clone();
         for gear in [&mut all.pinion, &mut all.wheel] {
@@ -264,8 +265,8 @@ impl Scene {
         all
     }
 
-    /// The number that a key has in the scene, defaults filled in; of a modification of both flanks that of the driving
-    /// ones. An amount of micro-geometry or misalignment that is not stated is 0; `None` for what is no number.
+    /// The value of a numeric key in the scene, defaults included. For a modification of both flanks it is that of the
+    /// driving ones. Micro-geometry or misalignment that is not given is 0; `None` if the key is not numeric.
     pub fn number_at(&self, key: &str) -> Option<f64> {
         let table: toml::Table = toml::from_str(&self.to_toml()).ok()?;
         let mut parts = setting::path(key)?;
@@ -289,7 +290,7 @@ impl Scene {
         value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
     }
 
-    /// The path that a path written in the scene stands for.
+    /// The path to which a path in the scene refers.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         origin::resolved(&self.file, path)
     }
@@ -304,12 +305,12 @@ impl Scene {
         self.gears().map(|gear| (gear.material.young_mpa, gear.material.poisson))
     }
 
-    /// The side of the pinion's teeth that the torque presses: its left flanks when it drives counter-clockwise.
+    /// The side of the pinion's teeth that the torque loads: the left flanks if it drives counter-clockwise.
     pub fn side(&self) -> Side {
         self.operation.side()
     }
 
-    /// Teeth of the gear that drives.
+    /// Number of teeth of the driving gear.
     pub fn driver_teeth(&self) -> u32 {
         match self.operation.driver {
             Driver::Pinion => self.pinion.teeth,
@@ -317,7 +318,7 @@ impl Scene {
         }
     }
 
-    /// Whether the scene's contact is made of slices of its own, which a contact pattern needs.
+    /// Whether the contact of the scene has slices of its own, which a contact pattern needs.
     pub fn has_slices(&self) -> bool {
         matches!(self.analysis.model, Model::Reduced | Model::Auto | Model::Full)
             && self.contact.method == Method::Slice
@@ -328,13 +329,13 @@ impl Scene {
         self.gears().map(|gear| gear.width_mm(&self.pair))
     }
 
-    /// Width over which both gears have flanks, mm; 0 where they pass each other.
+    /// Width over which both gears have flanks, mm; 0 if they pass each other.
     pub fn common_face_width_mm(&self) -> f64 {
         let [from, to] = self.pair.common_face_mm(self.face_widths_mm());
         (to - from).max(0.0)
     }
 
-    /// Elements along the face that a mesh of this order asks for on a gear; the default of `elements_face`.
+    /// Elements along the face that a gear needs for elements of this order; the default of `elements_face`.
     pub fn face_elements(&self, gear: &GearScene, order: u32) -> u32 {
         self.pair.face_elements(gear.width_mm(&self.pair), order, self.output.root_stress)
     }

@@ -1,10 +1,10 @@
-//! What a document describes, whatever it is: one pair of gears, or a gearbox.
+//! The machine that a document describes: one pair of gears, or a gearbox.
 
 use std::path::Path;
 
 use crate::{Document, DocumentKind, Scene, SceneError, Setting, gearbox::Gearbox};
 
-/// What a document describes.
+/// The machine that a document describes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Machine {
     /// One pair of gears.
@@ -14,7 +14,7 @@ pub enum Machine {
 }
 
 impl Machine {
-    /// Where its document stands.
+    /// Path of its document.
     pub fn file(&self) -> &Path {
         match self {
             Self::Pair(scene) => &scene.file,
@@ -22,7 +22,7 @@ impl Machine {
         }
     }
 
-    /// The scene of its pair; `None` of a gearbox.
+    /// The scene of its pair; `None` for a gearbox.
     pub fn pair(&self) -> Option<&Scene> {
         match self {
             Self::Pair(scene) => Some(scene),
@@ -32,10 +32,10 @@ impl Machine {
 }
 
 impl Document {
-    /// What it describes, with some of its keys set otherwise.
+    /// The machine, with some keys set to other values.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    /// [`SceneError`]: the first error, with its place in the file or the setting.
     pub fn machine(&self, settings: &[Setting]) -> Result<Machine, SceneError> {
         match self.base_kind() {
             Some(DocumentKind::Gearbox) => Ok(Machine::Gearbox(Box::new(self.gearbox(settings)?))),

@@ -1,5 +1,5 @@
-//! What a row of the table of keys becomes: a key of the schema, a field of what is read, and where the meaning is the
-//! value, a field of what is checked.
+//! Macros for a row of the table of keys: a key of the schema, a field of the raw values and, where both are equal, a
+//! field of the checked values.
 
 /// A table of the scene file: its rows make the [`Table`](crate::table::Table) and the struct of what is written. With
 /// `=> Checked` they make the struct of what is meant as well, with `read`, which takes it from what is written.
@@ -136,7 +136,7 @@ macro_rules! choices {
         }
 
         impl $name {
-            /// As files write it.
+            /// Word as written in files.
             #[allow(dead_code, reason = "some are read alone")]
             pub fn word(self) -> &'static str {
                 <Self as $crate::table::Choice>::WORDS[self as usize]

@@ -1,4 +1,4 @@
-//! Micro-geometry of a scene: which keys of a flank go together, and the depths in the geometry that they stand for.
+//! Micro-geometry of a scene: combinations of flank keys, and the corresponding depths in the geometry.
 
 use geometry::FlankModification;
 use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape};
@@ -11,12 +11,12 @@ use crate::spanned::{Number, Word};
 type Checked<T> = Result<T, SceneError>;
 
 impl FlankScene {
-    /// Whether nothing is said.
+    /// Whether nothing is given.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The largest amount either way that is stated, um, with its key; `None` where a file says all, or nothing does.
+    /// The largest magnitude given, um, with its key; `None` if a file gives the whole flank, or if nothing is given.
     pub fn largest_amount(&self) -> Option<(&'static str, f64)> {
         let all = [
             ("tip_relief_um", self.tip_relief_um),
@@ -76,7 +76,7 @@ impl FlankScene {
 }
 
 impl ModificationScene {
-    /// Whether nothing is said.
+    /// Whether nothing is given.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }

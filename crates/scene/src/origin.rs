@@ -1,4 +1,4 @@
-//! Where files are looked for.
+//! Where files are searched.
 
 use std::{
     borrow::Cow,
@@ -28,10 +28,10 @@ pub(crate) fn in_program(path: &Path) -> Option<&'static [u8]> {
 }
 
 impl Origin {
-    /// The bytes, at most so many, of the file that `path` is in a document at `document`.
+    /// The bytes of the file with the name `path` in a document at `document`, at most `most` bytes.
     ///
     /// # Errors
-    /// As the system says; [`io::ErrorKind::InvalidInput`] for folders, devices and named pipes.
+    /// The error of the operating system; [`io::ErrorKind::InvalidInput`] for folders, devices and named pipes.
     pub fn read(self, document: &Path, path: &Path, most: u64) -> io::Result<Cow<'static, [u8]>> {
         match self {
             Self::Disk => files::read_regular_file(&resolved(document, path), most).map(Cow::Owned),

@@ -1,4 +1,4 @@
-//! Which files are written.
+//! Output files to be written.
 
 use crate::Scene;
 use crate::schema::{Model, OutputScene, Run};
@@ -11,8 +11,9 @@ impl OutputScene {
 }
 
 impl Scene {
-    /// Whether an analysis can write fields for ParaView: at rest where there are meshes; in time one motion of
-    /// quasi-static reduced gears, whole from beginning to end, whose forces on the flanks tell how the teeth bend.
+    /// Whether an analysis can write fields for ParaView. In statics it needs meshes. In time it must be one
+    /// uninterrupted motion of quasi-static reduced gears, because then the forces on the flanks determine the
+    /// deflection of the teeth.
     pub fn can_write_fields(&self) -> bool {
         let Some(motion) = &self.motion else { return self.analysis.model != Model::Iso };
         let one = matches!(motion.run, Run::Steady | Run::Shooting | Run::Span | Run::Ramp);

@@ -1,4 +1,4 @@
-//! Where the keys of a scene stand: made once, for complaints that come later than the checks of the scene.
+//! Places of a scene's keys, collected once for errors that are found after the checks.
 
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
@@ -9,7 +9,7 @@ use crate::{Place, Scene, Setting, data_file::DataFiles, origin::Origin, tree::N
 pub(crate) struct Places(BTreeMap<String, Place>);
 
 impl Places {
-    /// Places of all that a table holds but entries of lists.
+    /// Places of everything in a table except entries of lists.
     pub fn of(root: &Node, place: &dyn Fn(&Range<usize>) -> Place) -> Self {
         let mut all = Self::default();
         all.take(root, "", place);
@@ -24,7 +24,7 @@ impl Places {
         }
     }
 
-    /// These places with what was set beside the file: of two settings of a key the last one holds.
+    /// These places with the settings in addition to the file. If a key is set twice, the last setting counts.
     pub fn with(&self, settings: &[Setting]) -> Self {
         let mut all = self.clone();
         for setting in settings {
@@ -41,8 +41,8 @@ impl Places {
     }
 }
 
-/// Where a scene came from: places of its keys, and the files that it names as they were read. It holds no text, and is
-/// equal to any other: scenes are compared by what they mean.
+/// Origin of a scene: places of its keys, and the content of the files that it names. It holds no text and is equal to
+/// any other, so scenes are compared by their meaning.
 #[derive(Debug, Clone)]
 pub struct Written(Arc<Provenance>);
 
@@ -76,8 +76,8 @@ impl Written {
 }
 
 impl Scene {
-    /// Where the first of these keys is written that is: keys have dots (`pair.centre_distance_mm`), a table's own name
-    /// stands for its heading. `None` where none of them is.
+    /// Place of the first of these keys that is in the file. Keys are dotted paths (`pair.centre_distance_mm`); the
+    /// name of a table stands for its heading. `None` if none is in the file.
     pub fn place_of(&self, keys: &[&str]) -> Option<Place> {
         keys.iter().find_map(|key| self.written.0.places.0.get(*key)).cloned()
     }

@@ -1,4 +1,4 @@
-//! Whether the pair will hold: the checked table `[rating]`.
+//! Rating of the pair: the checked table `[rating]`.
 
 use rating::{Lubricant, Lubricants, Material, Materials};
 
@@ -23,12 +23,12 @@ impl RatingScene {
         self.lubricants.as_ref().map_or_else(|| Lubricants::built_in(), DataFile::values)
     }
 
-    /// Materials of pinion and wheel; `None` where the table has no such name, which a scene that was read is refused for.
+    /// Materials of pinion and wheel; `None` if the table has no such name, which is an error when a scene is read.
     pub fn material_of(&self, gear: usize) -> Option<&Material> {
         self.material_table().find(&self.gears()[gear].material)
     }
 
-    /// The lubricant; `None` likewise.
+    /// The lubricant; `None` in the same case.
     pub fn oil(&self) -> Option<&Lubricant> {
         self.lubricant_table().find(&self.lubricant)
     }

@@ -1,4 +1,4 @@
-//! The words of a scene file with their types and places, nothing checked yet.
+//! Raw values of a scene file with their types and places, unchecked.
 
 use super::{
     DocumentKind, SceneError,

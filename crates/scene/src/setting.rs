@@ -1,15 +1,16 @@
-//! Keys that are set beside a file: `--set key=value`, and studies that vary a key.
+//! Keys that are set in addition to a file: `--set key=value`, and studies that vary a key.
 
 use toml::de::{DeTable, DeValue};
 
 use super::{SceneError, tree::Node};
 
-/// A key of a scene or a gearbox file with the value that takes the place of the file's.
+/// A key of a scene or a gearbox file with a value that replaces that of the file.
 ///
-/// The key is written with dots from the top of the file (`operation.torque_nm`, `pinion.modification.tip_relief_um`);
-/// a number among its parts counts the entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`,
-/// `gear.0.position_mm`), another word is the `name` of an entry (`bearing.left.position_mm`). Behind `mesh.WHICH.scene.`
-/// stands a key of the scene of that pair. The value is TOML; what is no TOML is a text (`contact.method=slice`).
+/// The key is a dotted path from the top of the file (`operation.torque_nm`, `pinion.modification.tip_relief_um`). A
+/// number in the path is the index of a list entry from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`,
+/// `gear.0.position_mm`); another word is the `name` of an entry (`bearing.left.position_mm`). After
+/// `mesh.WHICH.scene.` comes a key of that pair's scene. The value is TOML; other text is taken as a string
+/// (`contact.method=slice`).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     label: String,
@@ -23,10 +24,10 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// `key=value` as a user writes it; messages name it `--set KEY`.
+    /// Parses `key=value` as a user writes it; messages name it `--set KEY`.
     ///
     /// # Errors
-    /// [`SceneError::Setting`] where there is no key or the value can be neither TOML nor a bare word.
+    /// [`SceneError::Setting`] if there is no key, or if the value is neither TOML nor a bare word.
     pub fn parse(written: &str) -> Result<Self, SceneError> {
         let Some((key, value)) = written.split_once('=') else {
             return Err(complaint(&format!("--set {written}"), "has no `=`"));
@@ -41,10 +42,10 @@ impl Setting {
         Self::labelled(format!("--set {key}"), key, value.trim())
     }
 
-    /// The number of a key, for studies that vary it.
+    /// A numeric value of a key, for studies that vary it.
     ///
     /// # Errors
-    /// [`SceneError::Setting`] where `key` is none.
+    /// [`SceneError::Setting`] if `key` is not a key.
     pub fn number(key: &str, value: f64) -> Result<Self, SceneError> {
         // Whole numbers without a point serve keys of both kinds.
         let whole = value.fract() == 0.0 && value.abs() < 1e15;
@@ -52,10 +53,10 @@ impl Setting {
         Self::labelled(format!("--set {key}"), key, &written)
     }
 
-    /// A key with its value, named by the key in messages.
+    /// A key with its value; messages name the key.
     ///
     /// # Errors
-    /// [`SceneError::NoKey`] where `key` is none.
+    /// [`SceneError::NoKey`] if `key` is not a key.
     pub fn of(key: &str, value: &toml::Value) -> Result<Self, SceneError> {
         let no_key = || SceneError::NoKey { key: key.to_owned() };
         let path = path(key).ok_or_else(no_key)?;
@@ -64,7 +65,7 @@ impl Setting {
         Ok(Self { label: key.to_owned(), key: key.to_owned(), path, written, value })
     }
 
-    /// This setting, named otherwise in messages: by a word of its own, as `--torque-nm`.
+    /// This setting with another name in messages, such as `--torque-nm`.
     pub fn called(self, label: &str) -> Self {
         Self { label: label.to_owned(), ..self }
     }
@@ -117,7 +118,7 @@ impl Setting {
         &self.written
     }
 
-    /// The word of a command line that sets it, quoted for a shell.
+    /// The word of a command line that makes this setting, quoted for a shell.
     pub fn word(&self) -> String {
         format!("--set '{}={}'", self.key, self.written.replace('\'', "'\\''"))
     }

@@ -1,4 +1,4 @@
-//! Numbers of a scene in the units of the solvers: mm, N, MPa, t, s, rad. Each conversion stands here, once.
+//! Values of a scene in the units of the solvers: mm, N, MPa, t, s, rad. All conversions are here, each once.
 
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ impl Operation {
         self.speed_rpm * RPM
     }
 
-    /// The side of the pinion's teeth that the torque presses: its left flanks when it drives counter-clockwise.
+    /// The side of the pinion's teeth that the torque loads: the left flanks if it drives counter-clockwise.
     pub fn side(&self) -> Side {
         self.driver.loaded_side(self.rotation)
     }
@@ -48,12 +48,13 @@ impl PairScene {
 }
 
 impl MisalignmentScene {
-    /// Deviation and inclination of the axes, then in and across the plane of action, mm over the face width.
+    /// Deviation and inclination of the axes, then their components in the plane of action and perpendicular to it, mm
+    /// over the face width.
     pub fn in_mm(&self) -> [f64; 4] {
         self.all_um().map(|um| THOUSANDTH * um)
     }
 
-    /// What all of them together may move flanks by, mm.
+    /// Largest motion of the flanks that all of them together may cause, mm.
     pub fn size_mm(&self) -> f64 {
         THOUSANDTH * self.all_um().iter().map(|um| um.abs()).sum::<f64>()
     }
@@ -65,14 +66,14 @@ impl MisalignmentScene {
 }
 
 impl RampScene {
-    /// Speeds of the driver at first and in the end, rad/s.
+    /// First and last speed of the driver, rad/s.
     pub fn speeds(&self) -> [f64; 2] {
         [self.from_rpm, self.to_rpm].map(|rpm| rpm * RPM)
     }
 }
 
 impl TorqueScene {
-    /// Mean, N mm; `None` where the scene states none.
+    /// Mean torque, N mm; `None` if the scene gives none.
     pub fn mean(&self) -> Option<f64> {
         self.torque_nm.map(|nm| THOUSAND * nm)
     }
@@ -107,17 +108,17 @@ impl TorqueScene {
 }
 
 impl BodyScene {
-    /// Mass, t, where it is stated.
+    /// Mass, t, if given.
     pub fn mass(&self) -> Option<f64> {
         self.mass_kg.map(|kg| THOUSANDTH * kg)
     }
 
-    /// Inertia about an axis across the gear's own, and about its own, t mm^2, where they are stated.
+    /// Inertia about an axis perpendicular to the gear's own, and about its own, t mm^2, if given.
     pub fn inertias(&self) -> [Option<f64>; 2] {
         [self.transverse_inertia_kg_m2, self.polar_inertia_kg_m2].map(|own| own.map(|kg_m2| THOUSAND * kg_m2))
     }
 
-    /// Inertia of engine, load or shaft on the gear's axis, t mm^2.
+    /// Added inertia of engine, load or shaft on the gear's axis, t mm^2.
     pub fn added_inertia(&self) -> f64 {
         THOUSAND * self.added_inertia_kg_m2
     }
@@ -148,7 +149,7 @@ impl DiscScene {
         THOUSANDTH * self.mass_kg
     }
 
-    /// Inertia about an axis across the shaft's, and about the shaft's, t mm^2.
+    /// Inertia about an axis perpendicular to the shaft's, and about the shaft's, t mm^2.
     pub fn inertias(&self) -> [f64; 2] {
         [self.transverse_inertia_kg_m2, self.polar_inertia_kg_m2].map(|kg_m2| THOUSAND * kg_m2)
     }
@@ -169,7 +170,7 @@ impl Lumped8Scene {
 }
 
 impl Lumped12Scene {
-    /// Direction from the driver's centre to the driven gear's, rad; `None`: as the pair stands.
+    /// Direction from the driver's centre to the driven gear's, rad; `None`: that of the pair.
     pub fn orientation(&self) -> Option<f64> {
         self.orientation_deg.map(f64::to_radians)
     }

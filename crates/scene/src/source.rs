@@ -1,4 +1,4 @@
-//! The text behind the words: lines, keys, and complaints that name them.
+//! The text of a document: lines, keys, and errors that name them.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -22,9 +22,9 @@ use super::tree::Node;
 use super::{Place, error::SceneError};
 use super::{hints, wrong_line};
 
-/// A document with what was set beside it, and what its keys mean.
+/// A document with its additional settings, and the meaning of its keys.
 pub struct Source<'a> {
-    /// As the user named it.
+    /// Path as the user wrote it.
     pub file: &'a Path,
     document: &'a Document,
     /// What was set beside the file.
@@ -132,7 +132,7 @@ impl Source<'_> {
         self.settings.iter().zip(self.lines()).find(|(_, line)| (line.start..=line.end).contains(&span.start))
     }
 
-    /// File and line of a byte range, or the setting that it lies in.
+    /// File and line of a byte range, or the setting that contains it.
     pub fn place(&self, span: &Range<usize>) -> Place {
         match self.setting(span) {
             Some((setting, _)) => Place::Setting { label: setting.label().into() },
@@ -217,7 +217,7 @@ impl Source<'_> {
         }
     }
 
-    /// A complaint about words that each are right and do not go together.
+    /// An error about values that are valid separately but exclude each other.
     pub fn conflict(&self, span: &Range<usize>, what: impl Into<String>, advice: impl Into<String>) -> SceneError {
         SceneError::Conflict { place: self.place(span), what: what.into(), advice: advice.into() }
     }

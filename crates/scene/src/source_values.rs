@@ -1,4 +1,4 @@
-//! Values of a document within their ranges: numbers, whole numbers and words, and complaints about what lies beyond.
+//! Values of a document within their ranges: numbers, whole numbers and words, and errors for values outside.
 
 use std::fmt::Display;
 

@@ -10,7 +10,7 @@ use toml::Spanned;
 
 /// A number as written.
 pub type Number = Option<Spanned<f64>>;
-/// A whole number as written; signed, so that `-3` is out of range and not of a wrong type.
+/// A whole number as written; signed, so that `-3` is out of range instead of having the wrong type.
 pub type Whole = Option<Spanned<i64>>;
 /// A word as written.
 pub type Word = Option<Spanned<String>>;

@@ -1,4 +1,4 @@
-//! A first scene to change: what `ale-gear init` writes.
+//! Starter scene, as written by `ale-gear init`.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use geometry::GeometryError;
 
 use crate::{Driver, Kind, Scene, SceneError, Sense};
 
-/// What a gear is made of, where it is stated.
+/// Material of a gear, if given.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Steel {
     /// Young's modulus, MPa.
@@ -17,22 +17,22 @@ pub struct Steel {
     pub density_kg_m3: Option<f64>,
 }
 
-/// The few numbers that a pair begins with; the rest of the scene has defaults.
+/// The basic values of a pair; the rest of the scene has defaults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Starter {
     /// Title of the case.
     pub name: String,
-    /// Numbers of teeth of pinion and wheel, below zero of a ring.
+    /// Numbers of teeth of pinion and wheel, negative for a ring.
     pub teeth: [i32; 2],
     /// Normal module, mm.
     pub module_mm: f64,
     /// The pinion's helix angle, degrees, right hand positive.
     pub helix_deg: f64,
-    /// Face width of gears that have none of their own, mm.
+    /// Face width of gears without a width of their own, mm.
     pub face_width_mm: f64,
     /// Own face widths of pinion and wheel, mm.
     pub own_face_width_mm: [Option<f64>; 2],
-    /// Height of the wheel's mid-face over the pinion's, mm; `None`: 0.
+    /// Height of the wheel's mid-face above the pinion's, mm; `None`: 0.
     pub mid_face_offset_mm: Option<f64>,
     /// Torque on the driven gear, N m.
     pub torque_nm: f64,
@@ -40,7 +40,7 @@ pub struct Starter {
     pub speed_rpm: f64,
     /// Profile shift coefficients of pinion and wheel.
     pub profile_shift: [f64; 2],
-    /// Working centre distance, mm; `None`: the one without backlash that follows from the shifts.
+    /// Working centre distance, mm; `None`: the distance without backlash that follows from the profile shifts.
     pub centre_distance_mm: Option<f64>,
     /// Normal pressure angle, degrees; `None`: 20.
     pub pressure_angle_deg: Option<f64>,
@@ -50,17 +50,17 @@ pub struct Starter {
     pub bore_diameter_mm: [Option<f64>; 2],
     /// Thinning of each tooth of pinion and wheel, mm; `None`: 1.5 % of the module.
     pub thickness_allowance_mm: [Option<f64>; 2],
-    /// What pinion and wheel are made of.
+    /// Materials of pinion and wheel.
     pub steel: [Steel; 2],
-    /// Dedendum of the basic rack over the module; `None`: 1.25.
+    /// Dedendum of the basic rack divided by the module; `None`: 1.25.
     pub dedendum_coefficient: Option<f64>,
-    /// Tip radius of the basic rack over the module; `None`: 0.38.
+    /// Tip radius of the basic rack divided by the module; `None`: 0.38.
     pub root_radius_coefficient: Option<f64>,
-    /// The gear that drives.
+    /// Driving gear.
     pub driver: Driver,
     /// Sense of rotation of the pinion, seen from +z.
     pub rotation: Sense,
-    /// Equilibrium at every position, or motion in time.
+    /// Kind of analysis: equilibrium at every position, or motion in time.
     pub kind: Kind,
 }
 
@@ -97,7 +97,7 @@ impl Default for Starter {
 const THINNING: f64 = 0.015;
 
 impl Starter {
-    /// The pair with tips as short as a ring and its pinion need to pass each other, where nobody has said how long they are.
+    /// The pair with tips as short as a ring and its pinion need to clear each other, if no tip diameters are given.
     #[must_use]
     pub fn with_tips_that_pass(&self) -> Self {
         let mut own = self.clone();
@@ -120,8 +120,8 @@ impl Starter {
         own
     }
 
-    /// The scene with a word on every line. A line that begins with `# ` and holds `key = value` may be taken in as it
-    /// is, one of two that exclude each other.
+    /// The scene with a comment on every line. A line that begins with `# ` and contains `key = value` can be activated
+    /// by removing the `# `; of two such keys that exclude each other, only one.
     pub fn text(&self, file: &str) -> String {
         let name = if self.name.is_empty() {
             let kind = if self.helix_deg == 0.0 { "spur" } else { "helical" };

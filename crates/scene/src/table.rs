@@ -1,4 +1,4 @@
-//! What a table of keys is: of each key type, range, default and meaning; and enums whose values are words of a file.
+//! Tables of keys: type, range, default and meaning of each key; and enums whose values are words of a file.
 
 use geometry::{Driver, Sense, modification::ReliefShape};
 use serde::{Serialize, ser::SerializeMap};
@@ -84,7 +84,7 @@ impl Key {
         self.about.split_once(". ").map_or(self.about, |(brief, _)| brief)
     }
 
-    /// Meaning without the default that it tells, and that default.
+    /// The meaning without the default stated in it, and that default.
     pub fn meaning_and_default(&self) -> (String, Option<&'static str>) {
         let Some((before, rest)) = self.about.split_once("; default: ") else { return (self.about.to_owned(), None) };
         match rest.split_once(". ") {
@@ -219,7 +219,7 @@ pub(crate) const fn list(name: &'static str, of: &'static Table) -> Key {
 }
 
 impl Table {
-    /// Range and default of a number; `value!` names no key that has no row.
+    /// Range and default of a number. `value!` only names keys that have a row.
     pub fn number(&self, name: &str) -> (f64, f64, Option<f64>) {
         match self.keys.iter().find(|k| k.name == name).map(|k| &k.kind) {
             Some(&ValueKind::Number { low, high, default }) => (low, high, default),
@@ -227,12 +227,12 @@ impl Table {
         }
     }
 
-    /// Whether a switch is on where nothing is written.
+    /// Whether a switch is on by default.
     pub fn switch(&self, name: &str) -> bool {
         self.keys.iter().any(|k| k.name == name && matches!(k.kind, ValueKind::Switch { default: true }))
     }
 
-    /// What a key says in short; none of one that stands in another table.
+    /// Short description of a key; `None` for a key that is a table of its own.
     pub fn about(&self, name: &str) -> Option<&'static str> {
         self.keys.iter().find(|k| k.name == name).map(Key::brief)
     }
@@ -246,14 +246,14 @@ impl Table {
         }
     }
 
-    /// The names of its keys, and of those of every table in it, by the table.
+    /// The names of its keys, and of those of every table in it, by table.
     pub fn names(&'static self) -> Vec<(String, Vec<&'static str>)> {
         let mut all = Vec::new();
         self.walk("", &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
         all
     }
 
-    /// Visits the table and those in it, with their names; a list of tables has brackets about its name.
+    /// Visits the table and those in it, with their names; the name of a list of tables is in brackets.
     pub fn walk(&'static self, path: &str, visit: &mut impl FnMut(&str, &'static Self)) {
         visit(path, self);
         let own = path.trim_matches(['[', ']']);

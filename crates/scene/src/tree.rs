@@ -1,4 +1,5 @@
-//! The tables and values of a document with where each stands: made of its text once, changed by settings, read by serde.
+//! The tables and values of a document with their places: parsed from its text once, changed by settings, read by
+//! serde.
 
 use std::{borrow::Cow, collections::BTreeMap, fmt, ops::Range};
 
@@ -83,27 +84,27 @@ impl Node {
     /// The tables of a text.
     ///
     /// # Errors
-    /// What the TOML reader says.
+    /// The error of the TOML parser.
     pub fn of_text(text: &str) -> Result<Self, Fault> {
         let root = DeTable::parse(text)?;
         Ok(Self { span: root.span(), value: table(root.get_ref()) })
     }
 
-    /// One value; places are those in its own text.
+    /// One value; places refer to its own text.
     ///
     /// # Errors
-    /// What the TOML reader says.
+    /// The error of the TOML parser.
     pub fn of_value(text: &str) -> Result<Self, Fault> {
         Ok(node(&DeValue::parse(text)?))
     }
 
-    /// The entries of a table; none of what is no table.
+    /// The entries of a table; empty for other nodes.
     pub fn entries(&self) -> impl Iterator<Item = (&String, &Entry)> {
         let table = if let Value::Table(table) = &self.value { Some(table) } else { None };
         table.into_iter().flatten()
     }
 
-    /// The number below the keys of a path, as [`Node::put`] takes them.
+    /// The number at a path, as [`Node::put`] interprets it.
     pub fn number_at(&self, path: &[String]) -> Option<f64> {
         match (&self.value, path.split_first()) {
             (Value::Whole(own), None) => Some(*own as f64),
@@ -114,7 +115,7 @@ impl Node {
         }
     }
 
-    /// What is said where a path names an entry of a list that is not there, among others that have names.
+    /// Message for a path that names a missing entry of a list whose other entries have names.
     pub fn nobody_called(&self, path: &[String]) -> Option<String> {
         let (first, rest) = path.split_first()?;
         match &self.value {
@@ -144,7 +145,7 @@ impl Node {
         })
     }
 
-    /// The document below that stands at a place: the table of a key that may be a path as well.
+    /// The subdocument at a place: the table of a key that may also be a path.
     pub fn part(&self, span: &Range<usize>) -> Option<&Self> {
         match &self.value {
             Value::List(list) => list.iter().find_map(|own| own.part(span)),
@@ -161,7 +162,7 @@ impl Node {
         matches!(&self.value, Value::Text(own) if own == text)
     }
 
-    /// This node with those entries of its table alone.
+    /// This node with only the entries of its table that `keeps` selects.
     pub fn only(self, keeps: impl Fn(&str) -> bool) -> Self {
         let value = match self.value {
             Value::Table(table) => Value::Table(table.into_iter().filter(|(name, _)| keeps(name)).collect()),
@@ -170,7 +171,7 @@ impl Node {
         Self { value, ..self }
     }
 
-    /// This node with all places so much further on.
+    /// This node with all places moved by an offset.
     pub fn moved(&self, by: usize) -> Self {
         let moved = |span: &Range<usize>| span.start + by..span.end + by;
         let value = match &self.value {
@@ -186,9 +187,9 @@ impl Node {
         Self { span: moved(&self.span), value }
     }
 
-    /// Puts a value below the keys of `path`, making tables on the way; of a list a number counts the entries, and another
-    /// word is the `name` of one.
-    /// What is neither becomes a table, so that the complaint about its type names the value's place.
+    /// Puts a value at a path and makes tables on the way. In a list a number is the index of an entry, and another
+    /// word is the `name` of one. An entry that is neither becomes a table, so that the type error names the value's
+    /// place.
     pub fn put(&mut self, path: &[String], value: Self) {
         let Some((first, rest)) = path.split_first() else {
             *self = value;

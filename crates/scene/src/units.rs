@@ -1,4 +1,4 @@
-//! A number that another unit would make sense of: which one, and what to write.
+//! Detects numbers that make sense in another unit: which unit, and what to write.
 
 /// Another unit that users write in keys whose names end so: the factor to the key's own, its name, the key's own.
 type Unit = (&'static str, f64, &'static str, &'static str);
@@ -117,16 +117,17 @@ pub(crate) fn in_written_unit(key: &str, value: f64, written: &str) -> Option<Ot
     found.or_else(|| is_own().then(|| OtherUnit { value, said: "the unit is in the key".into() }))
 }
 
-/// A number in the unit of its key that was written in another one.
+/// A number that was given in another unit than that of its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherUnit {
     /// The number in the key's own unit.
     pub value: f64,
-    /// What is what: `0.2618 rad are 15 degrees`.
+    /// Text of the conversion: `0.2618 rad are 15 degrees`.
     pub said: String,
 }
 
-/// What `value` behind `key` is where it was meant in another unit; of units that lead to what `fits` the first.
+/// The conversion of `value` at `key` if it was intended in another unit; of several units whose result `fits`, the
+/// first one.
 pub fn in_another_unit(key: &str, value: f64, fits: impl Fn(f64) -> bool) -> Option<OtherUnit> {
     let name = key.rsplit('.').next().unwrap_or(key);
     UNITS.iter().filter(|unit| name.ends_with(unit.0)).find_map(|&(_, factor, other, own)| {
@@ -154,7 +155,7 @@ pub fn shown(value: f64) -> String {
     plain(short(value))
 }
 
-/// A number as people write it: without an exponent unless it would be long.
+/// A number as people write it: without an exponent, unless it would be long.
 pub fn plain(value: f64) -> String {
     if value != 0.0 && !(1e-4..1e7).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }
 }

@@ -1,4 +1,4 @@
-//! Lines that are no TOML, told in words of this program.
+//! Lines that are not TOML, reported in the terms of this program.
 
 use std::ops::Range;
 

@@ -1,18 +1,19 @@
-//! What a number of a curve may miss between the positions that are solved, as far as these tell it.
+//! Possible error of a curve's characteristic value between the solved positions, estimated from these positions.
 //!
-//! A curve over a mesh cycle comes back to its beginning. Between its positions it is a parabola where it is smooth; where
-//! it has a kink, it stays below the straight lines that come from both sides. Theory (64a).
+//! A curve over a mesh cycle is periodic. Between its positions it is taken as a parabola where it is smooth. At a kink
+//! it stays below the straight lines that extend it from both sides. Theory (64a).
 
 use crate::mesh_harmonics;
 
-/// What the positions of a curve tell of a number that they may miss a part of, in the unit of the number.
+/// Estimate, from the positions of a curve, of the part of a value that they may miss, in the unit of the value.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Between {
-    /// What parabolas through three positions add to an extreme; 0 for means and harmonics.
+    /// Increase of an extreme by parabolas through three positions; 0 for means and harmonics.
     pub shift: f64,
-    /// Sizes that the error goes with. An extreme: what parabolas and straight lines from both sides add to it, with a share of
-    /// the nearer neighbour's distance; and that of the farther neighbour. A mean: the harmonics that are hardly told apart,
-    /// and the highest of them. A harmonic: itself, and the same harmonics.
+    /// Magnitudes to which the error is proportional. For an extreme: its increase by parabolas and by straight lines
+    /// from both sides, with a share of the distance to the nearer neighbour, and the same for the farther neighbour.
+    /// For a mean: the harmonics that are barely resolved, and the highest of them. For a harmonic: the harmonic
+    /// itself, and the barely resolved ones.
     pub seen: [f64; 2],
 }
 
@@ -20,14 +21,15 @@ pub struct Between {
 const NEAR: f64 = 0.05;
 
 impl Between {
-    /// Of the largest value of a curve; `None` of fewer than four positions.
+    /// Estimate for the largest value of a curve; `None` for fewer than four positions.
     pub fn largest(curve: &[f64]) -> Option<Self> {
         let peak = Peak::of(curve)?;
         let [near, far] = peak.beside;
         Some(Self { shift: peak.parabola, seen: [peak.parabola + peak.lines + NEAR * near, far] })
     }
 
-    /// Of largest less smallest value of each cycle of a curve, the mean of all; `None` of fewer than four positions.
+    /// Estimate for the peak to peak of each cycle of a curve, averaged over the cycles; `None` for fewer than four
+    /// positions.
     pub fn peak_to_peak(curve: &[f64], cycles: usize) -> Option<Self> {
         let mut sum = Self::default();
         let per_cycle = curve.len() / cycles.max(1);
@@ -41,13 +43,13 @@ impl Between {
         Some(Self { shift: share * sum.shift, seen: sum.seen.map(|x| share * x) })
     }
 
-    /// Of the mean of a curve; `None` where it has no harmonics.
+    /// Estimate for the mean of a curve; `None` if it has no harmonics.
     pub fn mean(curve: &[f64], cycles: usize) -> Option<Self> {
         let amplitudes = amplitudes(curve, cycles)?;
         Some(Self { shift: 0.0, seen: [upper(&amplitudes), *amplitudes.last()?] })
     }
 
-    /// Of a harmonic of a curve, 1 that of the mesh; `None` where its positions do not show it.
+    /// Estimate for a harmonic of a curve, 1 for that of the mesh; `None` if the positions do not resolve it.
     pub fn harmonic(curve: &[f64], cycles: usize, order: usize) -> Option<Self> {
         let amplitudes = amplitudes(curve, cycles)?;
         Some(Self { shift: 0.0, seen: [*amplitudes.get(order.checked_sub(1)?)?, upper(&amplitudes)] })

@@ -1,22 +1,22 @@
-//! Bifurcation diagrams: what a motion settles to over a parameter.
+//! Bifurcation diagrams: the motion after settling, over a parameter.
 
 use serde::Serialize;
 
-/// What a motion settled to at one value of the parameter.
+/// The settled motion at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Branch {
     /// Value of the parameter.
     pub value: f64,
-    /// Points of the section there, in their order in time.
+    /// Points of the section there, in time order.
     pub points: Vec<f64>,
 }
 
 /// Both directions of a sweep, each in ascending order of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bifurcation {
-    /// Parameter rising.
+    /// Branch with increasing parameter.
     pub forward: Vec<Branch>,
-    /// Parameter falling, from the state that the way up ended in.
+    /// Branch with decreasing parameter, started from the final state of the increasing sweep.
     pub backward: Vec<Branch>,
 }
 
@@ -29,13 +29,14 @@ fn sweep<S, E>(
     values.iter().map(|&value| run(value, state).map(|points| Branch { value, points })).collect()
 }
 
-/// Up along `values` and down again, the state carried all the way: where both answers differ there is hysteresis.
+/// Sweeps up along `values` and down again, carrying the state all the way. Where the two results differ there is
+/// hysteresis.
 ///
-/// `run` takes a motion on at one value until it has settled, leaves its end in the state, and returns the points of
-/// its section.
+/// `run` advances a motion at one value until it has settled, leaves its final state, and returns the points of its
+/// section.
 ///
 /// # Errors
-/// The first of `run`.
+/// The first error of `run`.
 pub fn sweep_both_ways<S, E>(
     values: &[f64],
     state: &mut S,
@@ -51,15 +52,15 @@ pub fn sweep_both_ways<S, E>(
 }
 
 impl Branch {
-    /// Smallest and largest point; `None` without points.
+    /// Smallest and largest point; `None` if there are no points.
     pub fn extent(&self) -> Option<[f64; 2]> {
         let low = self.points.iter().copied().reduce(f64::min)?;
         let high = self.points.iter().copied().reduce(f64::max)?;
         Some([low, high])
     }
 
-    /// Number of distinct points, two being one when they lie within `tolerance`: 1 for a period of one, 2 after a
-    /// doubling, many in chaos.
+    /// Number of distinct points; points within `tolerance` count as one. It is 1 for a period of one, 2 after a period
+    /// doubling, large in chaos.
     pub fn distinct(&self, tolerance: f64) -> usize {
         let mut sorted = self.points.clone();
         sorted.sort_by(f64::total_cmp);
@@ -69,8 +70,8 @@ impl Branch {
 }
 
 impl Bifurcation {
-    /// Ranges of the parameter in which both ways give other answers: their extents differ by more than `tolerance`
-    /// (unit of the points). First and last value of each range.
+    /// Ranges of the parameter in which both directions give different results: their extents differ by more than
+    /// `tolerance` (in the unit of the points). Each range is given by its first and last value.
     pub fn hysteresis(&self, tolerance: f64) -> Vec<[f64; 2]> {
         let mut bands: Vec<[f64; 2]> = Vec::new();
         let mut inside = false;

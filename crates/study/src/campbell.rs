@@ -1,26 +1,26 @@
-//! Natural frequencies over speed, and where excitation meets them.
+//! Natural frequencies over speed, and their intersections with excitation lines.
 
 use serde::Serialize;
 
 use crate::error::{StudyError, positive};
 
-/// Campbell diagram: natural frequencies and lines of excitation over speed.
+/// Campbell diagram: natural frequencies and excitation lines over speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Campbell {
-    /// Speeds, ascending, turns a second (Hz).
+    /// Speeds, ascending, revolutions per second (Hz).
     pub speeds: Vec<f64>,
     /// `frequencies[m][s]`: mode m at speed s, Hz, ascending in m.
     pub frequencies: Vec<Vec<f64>>,
     /// Orders of excitation: multiples of the speed, above 0 (teeth, twice the teeth, ...).
     pub orders: Vec<f64>,
-    /// Where a line meets a mode.
+    /// Intersections of an excitation line with a mode.
     pub resonances: Vec<Resonance>,
 }
 
-/// A resonance.
+/// A resonance: an excitation line meets a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Resonance {
-    /// Mode, from 0.
+    /// Index of the mode, from 0.
     pub mode: usize,
     /// Order of excitation.
     pub order: f64,
@@ -30,13 +30,14 @@ pub struct Resonance {
     pub frequency: f64,
 }
 
-/// Diagram over `speeds` (Hz, ascending); `modes` gives the natural frequencies (Hz) at a speed, as many at each.
+/// Diagram over `speeds` (Hz, ascending). `modes` gives the natural frequencies (Hz) at a speed, the same number at
+/// each.
 ///
-/// Modes are taken in ascending order at every speed: where two cross, their numbers change places, and the resonances
-/// are the same. Between the speeds modes are straight.
+/// Modes are in ascending order at every speed. Where two modes cross, their numbers swap; the resonances do not
+/// change. Between the speeds modes are interpolated linearly.
 ///
 /// # Errors
-/// [`StudyError`] for speeds that do not ascend, orders that are not positive, or another number of modes at another
+/// [`StudyError`] for speeds that do not ascend, orders that are not positive, or a number of modes that varies with
 /// speed.
 pub fn campbell(
     speeds: &[f64],

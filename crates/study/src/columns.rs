@@ -1,10 +1,10 @@
-//! Series of numbers by name, as long as each other: what a history is judged by.
+//! Named columns of equal length: the values of a history.
 
 use std::collections::BTreeMap;
 
 use crate::StudyError;
 
-/// Columns by name, in their order.
+/// Named columns in order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
     places: BTreeMap<String, usize>,
@@ -20,7 +20,7 @@ impl FromIterator<(String, Vec<f64>)> for Columns {
 }
 
 impl Columns {
-    /// Columns without rows; of one name that stands twice the last column is found.
+    /// Columns without rows. If a name occurs twice, the last column is found.
     pub fn named<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
         let mut count = 0;
         let places = names.into_iter().map(Into::into).zip(0..).inspect(|_| count += 1).collect();
@@ -38,15 +38,15 @@ impl Columns {
         self.values.iter().flatten().all(|x| x.is_finite())
     }
 
-    /// The column of that name, if there is one.
+    /// The column with this name, if there is one.
     pub fn find(&self, name: &str) -> Option<&[f64]> {
         self.places.get(name).map(|&i| &*self.values[i])
     }
 
-    /// The column of that name.
+    /// The column with this name.
     ///
     /// # Errors
-    /// [`StudyError::NoColumn`].
+    /// [`StudyError::NoColumn`] if there is none.
     pub fn series(&self, name: &str) -> Result<&[f64], StudyError> {
         self.find(name).ok_or_else(|| StudyError::NoColumn { name: name.to_owned() })
     }
@@ -56,19 +56,19 @@ impl Columns {
         (0..self.len()).map(|row| self.values.iter().map(move |column| column[row]))
     }
 
-    /// The last rows of all columns.
+    /// The last `rows` rows of all columns.
     #[must_use]
     pub fn last(&self, rows: usize) -> Self {
         let tail = |all: &Vec<f64>| all[all.len().saturating_sub(rows)..].to_vec();
         Self { places: self.places.clone(), values: self.values.iter().map(tail).collect() }
     }
 
-    /// Whether there is no row.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Rows.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.values.first().map_or(0, Vec::len)
     }
@@ -78,7 +78,7 @@ impl Columns {
         self.names_from("")
     }
 
-    /// Names that begin so, in order.
+    /// Names with this beginning, in order.
     pub fn names_from(&self, beginning: &str) -> Vec<&str> {
         let mut found: Vec<(usize, &str)> =
             self.places.iter().filter(|(n, _)| n.starts_with(beginning)).map(|(n, &i)| (i, n.as_str())).collect();
@@ -94,7 +94,7 @@ impl Columns {
         self.series(name).map(mean)
     }
 
-    /// Smallest and largest of a column; infinite, the wrong way round, without rows.
+    /// Smallest and largest value of a column; plus and minus infinity without rows.
     ///
     /// # Errors
     /// [`StudyError::NoColumn`].
@@ -103,23 +103,23 @@ impl Columns {
     }
 }
 
-/// Arithmetic mean; NaN of nothing.
+/// Arithmetic mean; NaN for an empty list.
 pub fn mean(series: &[f64]) -> f64 {
     series.iter().sum::<f64>() / series.len() as f64
 }
 
-/// Smallest and largest; infinite, the wrong way round, of nothing.
+/// Smallest and largest value; plus and minus infinity for an empty list.
 pub fn extent(series: &[f64]) -> [f64; 2] {
     series.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
 }
 
-/// Largest minus smallest; minus infinity of nothing.
+/// Largest minus smallest value; minus infinity for an empty list.
 pub fn peak_to_peak(series: &[f64]) -> f64 {
     let [low, high] = extent(series);
     high - low
 }
 
-/// Root mean square about the mean; NaN of nothing.
+/// Root mean square about the mean; NaN for an empty list.
 pub fn root_mean_square(series: &[f64]) -> f64 {
     let centre = mean(series);
     (series.iter().map(|x| (x - centre).powi(2)).sum::<f64>() / series.len() as f64).sqrt()

@@ -1,25 +1,25 @@
-//! How nearly one history follows another.
+//! Correlation of two histories.
 
 use crate::error::StudyError;
 
 /// A spread below this share of the largest sample is round-off.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Pearson's coefficient of two histories with the same samples.
+/// Pearson's correlation coefficient of two histories with the same samples.
 ///
 /// ```text
 /// r = sum (a - mean a)(b - mean b) / sqrt( sum (a - mean a)^2 sum (b - mean b)^2 )
 /// ```
 ///
-/// 1: b is a straight line of a that rises, -1: one that falls, 0: neither. Units cancel, and so does any factor or
-/// shift of either. It measures following without delay: a sine and a cosine have 0. Source: Pearson, Proc. R. Soc. 58
-/// (1895), p. 240.
+/// It is 1 if b is a linear function of a with positive slope, -1 with negative slope, 0 without linear relation. It
+/// does not depend on units, factors or offsets. It measures correlation without delay: for a sine and a cosine it is
+/// 0. Source: Pearson, Proc. R. Soc. 58 (1895), p. 240.
 ///
-/// `None` where one of them does not vary (its spread is round-off of its size): there is nothing to follow.
+/// `None` if one of them does not vary (its spread is only round-off of its magnitude).
 ///
 /// # Errors
-/// [`StudyError::Lengths`] when they are of different lengths, [`StudyError::TooFewSamples`] with less than two
-/// samples, [`StudyError::NotFinite`] when one is no number.
+/// [`StudyError::Lengths`] if they have different lengths, [`StudyError::TooFewSamples`] for fewer than two samples,
+/// [`StudyError::NotFinite`] if a sample is not a finite number.
 ///
 /// # Example
 /// ```

@@ -7,8 +7,8 @@ use crate::error::{StudyError, check};
 /// Mean and extent of a history over whole mesh cycles, in the unit of its samples.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CycleStatistics {
-    /// Arithmetic mean of all samples: the trapezoidal rule over a period, exact for every harmonic
-    /// below the number of samples in a cycle.
+    /// Arithmetic mean of all samples. This is the trapezoidal rule over a period, which is exact for every harmonic
+    /// below the number of samples per cycle.
     pub mean: f64,
     /// Smallest sample.
     pub min: f64,
@@ -16,20 +16,20 @@ pub struct CycleStatistics {
     pub max: f64,
     /// Mean over the cycles of (largest - smallest sample of that cycle).
     ///
-    /// It is a statement about the samples: between them a harmonic of order h can reach higher by up to
-    /// its amplitude times `1 - cos(pi h / samples_per_cycle)`, and a kink by more.
+    /// It refers to the samples. Between them a harmonic of order h can be larger by up to its amplitude times `1 -
+    /// cos(pi h / samples_per_cycle)`, and a kink by more.
     pub peak_to_peak: f64,
-    /// Samples in each cycle: the sampling that `peak_to_peak` is to be read with.
+    /// Number of samples per cycle, needed to judge `peak_to_peak`.
     pub samples_per_cycle: usize,
-    /// Whole cycles in the history.
+    /// Number of whole cycles in the history.
     pub cycles: usize,
 }
 
-/// Statistics of `samples`, evenly spaced over `cycles` whole mesh cycles, the end point left out.
+/// Statistics of `samples`, evenly spaced over `cycles` whole mesh cycles without the end point.
 ///
 /// # Errors
-/// [`StudyError::NotWholeCycles`] when the samples do not divide into that many cycles,
-/// [`StudyError::NotFinite`] when one of them is not a number.
+/// [`StudyError::NotWholeCycles`] if the number of samples is not a multiple of the number of cycles,
+/// [`StudyError::NotFinite`] if a sample is not a finite number.
 ///
 /// # Example
 /// ```

@@ -1,21 +1,21 @@
-//! What can be wrong with a history.
+//! Errors of the statistics.
 
-/// Why no statistics come out.
+/// The statistics cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// Fewer samples than one a cycle, or no cycle at all.
+    /// Fewer than one sample per cycle, or no cycle at all.
     #[error("{samples} samples cannot be divided into {cycles} whole cycles")]
     NotWholeCycles {
-        /// Samples in the history.
+        /// Number of samples in the history.
         samples: usize,
-        /// Cycles they are said to span.
+        /// Number of cycles given.
         cycles: usize,
     },
-    /// A column is asked for that the rows do not have.
+    /// A requested column does not exist.
     #[error("the rows have no column `{name}`")]
     NoColumn {
-        /// The name.
+        /// Name of the column.
         name: String,
     },
     /// A sample is NaN or infinite.
@@ -23,36 +23,36 @@ pub enum StudyError {
     NotFinite {
         /// Index of the first such sample.
         index: usize,
-        /// What stands there.
+        /// Value of the sample.
         value: f64,
     },
-    /// No grid can be laid over a flank.
+    /// No grid can be made over a flank.
     #[error("no grid of {steps} steps from roll angle {low} to {high} rad at {stations} stations")]
     NoGrid {
-        /// Where it begins, rad.
+        /// Start of the range, rad.
         low: f64,
-        /// Where it ends, rad.
+        /// End of the range, rad.
         high: f64,
-        /// Steps along the profile.
+        /// Number of steps along the profile.
         steps: usize,
-        /// Axial stations.
+        /// Number of axial stations.
         stations: usize,
     },
-    /// No power law can be laid through measured costs.
+    /// No power law can be fitted to the measured costs.
     #[error("no power law through {points} points: it takes two different sizes, and all values above 0")]
     NoPowerLaw {
-        /// Points given.
+        /// Number of points given.
         points: usize,
     },
-    /// Fewer samples than it takes.
+    /// There are too few samples.
     #[error("{samples} samples, at least {least} are needed")]
     TooFewSamples {
-        /// Samples given.
+        /// Number of samples given.
         samples: usize,
-        /// How many it takes.
+        /// Least number of samples.
         least: usize,
     },
-    /// A period, a rate, an order that must be above zero is not.
+    /// A period, rate or order is not positive.
     #[error("{quantity} = {value} must be above 0")]
     NotPositive {
         /// Name of the input.
@@ -60,40 +60,40 @@ pub enum StudyError {
         /// Value of the input.
         value: f64,
     },
-    /// Lists that belong together are of different lengths.
+    /// Lists that belong together have different lengths.
     #[error("{found} entries where {wanted} are wanted")]
     Lengths {
-        /// Entries of the list.
+        /// Number of entries of the list.
         found: usize,
-        /// Entries of the others.
+        /// Number of entries of the other lists.
         wanted: usize,
     },
-    /// Times or speeds that do not ascend.
+    /// Times or speeds do not ascend.
     #[error("entry {index} is not above the one before it")]
     NotAscending {
-        /// Which, from 0.
+        /// Index of the entry, from 0.
         index: usize,
     },
-    /// Lines closer than the window can tell apart.
+    /// Spectral lines are too close together for the window.
     #[error("lines {spacing} Hz apart are not separated: {least} Hz is needed")]
     Unresolved {
-        /// Distance of the lines, Hz.
+        /// Distance between the lines, Hz.
         spacing: f64,
-        /// Least distance with this window and record, Hz.
+        /// Least distance for this window and record, Hz.
         least: f64,
     },
-    /// A history has no counterpart in the reference.
+    /// The positions of a history are not among those of the reference.
     #[error("{positions} positions a cycle are not among the reference's {reference}")]
     OtherPositions {
-        /// Positions of the history.
+        /// Number of positions of the history.
         positions: usize,
-        /// Positions of the reference.
+        /// Number of positions of the reference.
         reference: usize,
     },
 }
 
 impl StudyError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NotWholeCycles { .. } => {

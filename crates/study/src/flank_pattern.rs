@@ -1,15 +1,15 @@
-//! Who was pressed how hard: the envelope of moving contact lines on a flank.
+//! Contact pattern: the envelope of moving contact lines on a flank.
 
 use serde::{Deserialize, Serialize};
 
 use crate::StudyError;
 
-/// One contact of a tooth at one axial station and one position of the mesh.
+/// The contact of a tooth at one axial station and one position of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
     /// Height on the flank, mm.
     pub z: f64,
-    /// How far the tooth's engagement has gone, in mesh cycles; any origin.
+    /// Progress of the tooth through the mesh, in mesh cycles, from any origin.
     pub engagement: f64,
     /// Roll angle of the contact, rad.
     pub roll: f64,
@@ -21,15 +21,15 @@ pub struct Touch {
 
 /// Largest pressure and line load on every part of a flank, on a grid of roll angle by axial station.
 ///
-/// Contact at a station wanders along the profile while the tooth goes through the mesh. It is known at the positions
-/// that were solved; from one to the next, roll angle, pressure and line load are taken to change linearly:
+/// The contact at a station moves along the profile while the tooth passes through the mesh. It is known at the solved
+/// positions. Between them roll angle, pressure and line load are interpolated linearly:
 ///
 /// ```text
 /// p(u_i, z_j) = max of p over the path of station j within |u - u_i| <= h / 2     h: step of the grid
 /// ```
 ///
-/// so the largest value of the grid is the largest of all touches, and what no path comes within half a step of is 0.
-/// The band reaches its half-width farther; a path ends at the last solved position that carries load.
+/// So the largest value of the grid is the largest of all contacts, and parts that no path approaches within half a
+/// step are 0. The band extends farther by its half-width; a path ends at the last solved position with load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written")]
 pub struct FlankPattern {
@@ -62,11 +62,11 @@ impl TryFrom<Written> for FlankPattern {
 }
 
 impl FlankPattern {
-    /// A flank that nothing has touched: `steps` equal steps of roll angle over `range` (rad), stations at heights
+    /// A flank without contact yet: `steps` equal steps of roll angle over `range` (rad), stations at heights
     /// `stations` (mm).
     ///
     /// # Errors
-    /// [`StudyError::NoGrid`] without a step or a station, or when the range is no range.
+    /// [`StudyError::NoGrid`] without a step or a station, or for an invalid range.
     pub fn new(range: [f64; 2], steps: usize, stations: Vec<f64>) -> Result<Self, StudyError> {
         let [low, high] = range;
         let grid = low.is_finite() && high.is_finite() && low < high && stations.iter().all(|z| z.is_finite());
@@ -80,14 +80,14 @@ impl FlankPattern {
         Ok(Self { rolls, stations, max_pressure: zeros.clone(), max_line_load: zeros })
     }
 
-    /// Adds the touches of one mesh cycle, in any order. All teeth count as one tooth: what pair k does at phase s
-    /// happens at engagement k + s. Touches of one station are joined to a path where their engagements differ by at
-    /// most `reach` cycles: a little more than the distance of two positions.
+    /// Adds the contacts of one mesh cycle, in any order. All teeth count as one tooth: the contact of pair k at phase
+    /// s is at engagement k + s. Contacts of one station are joined to a path if their engagements differ by at most
+    /// `reach` cycles, which should be slightly more than the distance of two positions.
     ///
-    /// A touch belongs to the nearest station, and beyond the end of the grid to its last strip.
+    /// A contact belongs to the nearest station and, beyond the end of the grid, to its last strip.
     ///
     /// # Errors
-    /// [`StudyError::NotFinite`] when a touch holds a number that is none; nothing is added then.
+    /// [`StudyError::NotFinite`] if a value of a contact is not a finite number; then nothing is added.
     pub fn press(&mut self, touches: &[Touch], reach: f64) -> Result<(), StudyError> {
         for (index, t) in touches.iter().enumerate() {
             let numbers = [t.z, t.engagement, t.roll, t.pressure, t.line_load];
@@ -119,7 +119,7 @@ impl FlankPattern {
         &self.stations
     }
 
-    /// Largest pressure, MPa, station by station; within a station ascending in roll angle.
+    /// Largest pressure, MPa, station by station, and ascending in roll angle within a station.
     pub fn max_pressure(&self) -> &[f64] {
         &self.max_pressure
     }

@@ -14,9 +14,9 @@ use crate::{
 /// One harmonic of the mesh frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Harmonic {
-    /// Multiple of the mesh frequency, 1, 2, ...
+    /// Order, a multiple of the mesh frequency: 1, 2, ...
     pub order: usize,
-    /// Single-sided amplitude (half of its peak to peak), in the unit of the samples.
+    /// Single-sided amplitude (half of the peak to peak), in the unit of the samples.
     pub amplitude: f64,
     /// Phase of the cosine `amplitude * cos(2 pi order * phase + phase_rad)`, rad, -pi .. pi.
     pub phase_rad: f64,
@@ -28,12 +28,12 @@ pub struct Harmonic {
 /// X_h = 2/n sum_k x_k exp(-2 pi i (h cycles) k / n)
 /// ```
 ///
-/// A sine of amplitude 1 reads 1 and its neighbours read 0: the record is a whole number of cycles, so no
-/// window is used. Orders above half of the samples in a cycle do not exist in the record and are
-/// left out; the one exactly at half carries its whole content once and is therefore not doubled.
+/// A sine of amplitude 1 gives 1, and its neighbouring orders give 0: the record is a whole number of cycles, so no
+/// window is needed. Orders above half the number of samples per cycle are not contained in the record and are omitted.
+/// The order exactly at half is contained only once and is therefore not doubled.
 ///
 /// # Errors
-/// Those of [`crate::cycle_statistics`].
+/// The errors of [`crate::cycle_statistics`].
 ///
 /// # Example
 /// ```
@@ -63,12 +63,12 @@ pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<V
 /// Mesh cycles of a record whose ends are weighed down, at the least, for its orders to be told from each other.
 const TOLD_APART: f64 = 4.0;
 
-/// Amplitudes of the mesh orders 1, 2, ... that samples can tell, evenly spaced over so many mesh cycles: of whole cycles that
-/// come back, or are few, those of [`mesh_harmonics`]; else with a window of Hann. None of fewer than four cycles that are
-/// not whole.
+/// Amplitudes of the mesh orders 1, 2, ... that the samples resolve, evenly spaced over a number of mesh cycles. For
+/// whole cycles that are periodic or few they are those of [`mesh_harmonics`]; otherwise a Hann window is used. Empty
+/// for fewer than four cycles that are not whole.
 ///
 /// # Errors
-/// Those of [`crate::cycle_statistics`] and [`crate::order_amplitude`].
+/// The errors of [`crate::cycle_statistics`] and [`crate::order_amplitude`].
 pub fn order_amplitudes(samples: &[f64], cycles: f64, comes_back: bool) -> Result<Vec<f64>, StudyError> {
     let (per_cycle, whole) = (samples.len() as f64 / cycles, cycles.round());
     let (orders, short) = (per_cycle as usize / 2, cycles < TOLD_APART);
@@ -83,17 +83,17 @@ pub fn order_amplitudes(samples: &[f64], cycles: f64, comes_back: bool) -> Resul
     (1..=orders).map(|order| order_amplitude(samples, &places, order as f64)).collect()
 }
 
-/// Share of a record's vibration that lies in the upper half of what its samples can tell apart, between a quarter and a
-/// half of the rate: what is cut off beyond is of that size as well where amplitudes fall slowly.
+/// Share of a record's vibration in the upper half of its resolved frequencies, between a quarter and half of the
+/// sampling rate. If amplitudes decrease slowly, the part beyond the resolved range is of similar size.
 ///
 /// ```text
 /// share = sqrt(sum_{n/4 < k <= n/2} |X_k|^2 / sum_{0 < k <= n/2} |X_k|^2)
 /// ```
-/// 0 for a smooth record that is sampled finely, near 0.7 for noise; 0 for a record that does not move. `samples` evenly
-/// spaced over `cycles` whole mesh cycles; with a window of Hann where what comes after them is not what they began with.
+/// It is 0 for a smooth, finely sampled record, near 0.7 for noise, and 0 for a constant record. `samples` are evenly
+/// spaced over `cycles` whole mesh cycles; a Hann window is used if the record is not periodic.
 ///
 /// # Errors
-/// Those of [`crate::cycle_statistics`].
+/// The errors of [`crate::cycle_statistics`].
 pub fn unresolved_share(samples: &[f64], cycles: usize, comes_back: bool) -> Result<f64, StudyError> {
     check(samples, cycles)?;
     let n = samples.len();

@@ -1,10 +1,10 @@
-//! How good, how fast, how stable?
+//! Statistics, spectra and stability measures of computed motions.
 //!
-//! Statistics of histories that are sampled evenly over whole mesh cycles, so that neither a window function nor
-//! leakage stands between a mesh harmonic and its amplitude; spectra with windows and sidebands where the record is no
-//! whole cycle; sections, bifurcation diagrams, Lyapunov exponents, phase portraits and Campbell diagrams of any
-//! motion; what contact leaves on a flank over such cycles; accuracy against cost of the ways to compute one, CalculiX
-//! among them ([`calculix`]).
+//! The statistics are for histories sampled evenly over whole mesh cycles. So a mesh harmonic has its exact amplitude,
+//! without window function or leakage. For records that are not whole cycles there are spectra with windows and
+//! sidebands. The crate also has Poincare sections, bifurcation diagrams, Lyapunov exponents, phase portraits and
+//! Campbell diagrams of any motion; the contact pattern on a flank over mesh cycles; and accuracy against cost of the
+//! ways to compute a cycle, including CalculiX ([`calculix`]).
 
 mod between;
 mod bifurcation;

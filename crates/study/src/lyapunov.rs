@@ -1,24 +1,24 @@
-//! Largest Lyapunov exponent: chaos or not.
+//! Largest Lyapunov exponent, which distinguishes chaos.
 
 use serde::Serialize;
 
-/// How an exponent is to be found.
+/// Options of the search for an exponent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LyapunovPlan {
-    /// Time of one stretch (one period of the excitation, or about one of the motion).
+    /// Duration of one section of the motion (one period of the excitation, or about one of the motion).
     pub stretch: f64,
-    /// Stretches before counting begins: the transient, and the turn of the difference into its direction of fastest
-    /// growth.
+    /// Number of sections before counting begins: for the transient, and for the difference to align with its direction
+    /// of fastest growth.
     pub settling: usize,
-    /// Stretches that count.
+    /// Number of sections that count.
     pub stretches: usize,
-    /// Distance to which the neighbour is set back after each stretch, in units of `scale`; 1e-7 is far above round-off
-    /// and far below any curvature.
+    /// Distance to which the neighbouring motion is reset after each section, in units of `scale`. 1e-7 is far above
+    /// round-off and small enough for linear growth.
     pub distance: f64,
 }
 
 described::described! {
-    /// Largest Lyapunov exponent and how well it is known.
+    /// Largest Lyapunov exponent and its uncertainty.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
     pub struct Lyapunov {
         /// mean rate of growth of a small difference, 1/s: above 0 chaos, 0 a quasi-periodic motion (or a free shift in time), below 0 a motion that repeats itself
@@ -29,8 +29,7 @@ described::described! {
 }
 
 impl Lyapunov {
-    /// Exponent of rates of growth, ln(d_1 / d_0) / T of each stretch: their mean, and its standard error from ten
-    /// parts.
+    /// Exponent from growth rates ln(d_1 / d_0) / T of each section: their mean, and its standard error from ten parts.
     pub fn of_rates(rates: &[f64]) -> Self {
         let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
         let exponent = mean(rates);
@@ -41,24 +40,24 @@ impl Lyapunov {
         Self { exponent, error: (variance / count.max(1.0)).sqrt() }
     }
 
-    /// Positive beyond three standard errors.
+    /// Whether the exponent is positive by more than three standard errors.
     pub fn is_chaotic(&self) -> bool {
         self.exponent > 3.0 * self.error
     }
 }
 
-/// Largest exponent of a motion by two neighbours, the distance set back after every stretch (Benettin, Galgani,
-/// Giorgilli, Strelcyn, Meccanica 15 (1980) 9).
+/// Largest exponent of a motion from two neighbouring motions whose distance is reset after every section (Benettin,
+/// Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9).
 ///
 /// ```text
 /// lambda = 1 / (m T) sum ln(d_k / d_0)
 /// ```
-/// `advance(x, k)` carries a state x from k T to (k + 1) T; `scale` is what counts as large of each entry, > 0. Works
-/// for flows, maps and motions with kinks: it needs no tangent. A difference that dies out to nothing within one
-/// stretch counts as the smallest number there is.
+/// `advance(x, k)` carries a state x from k T to (k + 1) T; `scale` is the magnitude of each entry that counts as
+/// large, > 0. The method works for flows, maps and motions with kinks, because it needs no tangent. If the difference
+/// becomes zero within one section, it counts as the smallest positive number.
 ///
 /// # Errors
-/// Those of `advance`.
+/// The errors of `advance`.
 pub fn largest_lyapunov<E>(
     start: &[f64],
     scale: &[f64],

@@ -1,20 +1,22 @@
-//! Amplitude of an order over a stretch of a motion whose speed may change.
+//! Amplitude of an order over a section of a motion whose speed may change.
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use crate::{StudyError, Window, error::check};
 
-/// Amplitude of what repeats itself `order` times while `places` go on by one; single-sided, in the unit of the samples.
+/// Amplitude of the component that repeats `order` times while `places` increase by one; single-sided, in the unit of
+/// the samples.
 ///
 /// ```text
 /// A = 2 |sum_j w_j d_j (x_j - mean) exp(-2 pi i order c_j)| / sum_j w_j d_j,   d_j = (c_(j+1) - c_(j-1))/2
 /// ```
-/// c: places (mesh cycles or turns, strictly rising or falling), evenly spaced or not; w: Hann over the stretch. Lines less
-/// than two over the length of the stretch apart are not told from each other, and the mean leaves the lowest two to
-/// themselves. Exact for even places; the rule of trapezoids between uneven ones.
+/// c are the places (mesh cycles or rotations, strictly ascending or descending), evenly spaced or not; w is a Hann
+/// window over the section. Lines closer than two divided by the length of the section are not resolved, and the mean
+/// affects the lowest two orders. Exact for evenly spaced places; between uneven ones the trapezoidal rule is used.
 ///
 /// # Errors
-/// [`StudyError::TooFewSamples`] for fewer than 8 and for lists of different lengths, [`StudyError::NotFinite`].
+/// [`StudyError::TooFewSamples`] for fewer than 8 samples and for lists of different lengths,
+/// [`StudyError::NotFinite`].
 pub fn order_amplitude(samples: &[f64], places: &[f64], order: f64) -> Result<f64, StudyError> {
     let n = samples.len();
     if n < 8 {
@@ -45,17 +47,17 @@ pub fn order_amplitude(samples: &[f64], places: &[f64], order: f64) -> Result<f6
     Ok(2.0 * re.hypot(im) / sum.abs())
 }
 
-/// A resonance in an order cut.
+/// A resonance in the amplitude of an order over speed (order cut).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CutPeak {
-    /// Place of the largest amplitude.
+    /// Index of the largest amplitude.
     pub at: usize,
-    /// Points in a row about it with half of its power or more.
+    /// Number of consecutive points around it with at least half of its power.
     pub points: usize,
 }
 
-/// The largest amplitude of an order cut and the points across it; `None` where the cut does not fall to half of its power
-/// on both sides, so that it shows no whole peak.
+/// The largest amplitude of an order cut and the number of points across its peak. `None` if the cut does not fall to
+/// half of that power on both sides, so that it does not contain the whole peak.
 pub fn cut_peak(amplitudes: &[f64]) -> Option<CutPeak> {
     let at = (0..amplitudes.len()).max_by(|&a, &b| amplitudes[a].total_cmp(&amplitudes[b]))?;
     let below = |x: &f64| *x < FRAC_1_SQRT_2 * amplitudes[at];

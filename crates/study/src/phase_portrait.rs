@@ -1,13 +1,13 @@
-//! Velocity over displacement.
+//! Phase portrait: velocity over displacement.
 
 use serde::Serialize;
 
 use crate::error::StudyError;
 
-/// Path of a motion in the plane of one coordinate and its velocity.
+/// Path of a motion in the plane of a coordinate and its velocity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhasePortrait {
-    /// (x, x'), in the order of time.
+    /// Points (x, x') in time order.
     pub points: Vec<[f64; 2]>,
     /// Smallest and largest of x and of x'.
     pub extent: [[f64; 2]; 2],
@@ -16,7 +16,7 @@ pub struct PhasePortrait {
 /// Portrait of a coordinate and its velocity, sampled at the same times.
 ///
 /// # Errors
-/// [`StudyError`] for lists of other lengths, without samples, or with numbers that are none.
+/// [`StudyError`] for lists of different lengths, without samples, or with entries that are not finite.
 pub fn phase_portrait(coordinate: &[f64], velocity: &[f64]) -> Result<PhasePortrait, StudyError> {
     if coordinate.len() != velocity.len() {
         return Err(StudyError::Lengths { found: velocity.len(), wanted: coordinate.len() });
@@ -35,9 +35,9 @@ pub fn phase_portrait(coordinate: &[f64], velocity: &[f64]) -> Result<PhasePortr
 }
 
 impl PhasePortrait {
-    /// How far the path is from closing after `samples` points: largest distance of a point from the one that many
-    /// later, each direction over its extent. 0 for a motion that repeats with that period; 1 or so in chaos. `None`
-    /// when the portrait is not longer than that.
+    /// How far the path is from being closed after `samples` points: largest distance of a point from the point that
+    /// many samples later, each direction relative to its extent. It is 0 for a motion with that period and about 1 in
+    /// chaos. `None` if the portrait is not longer than that.
     pub fn opening(&self, samples: usize) -> Option<f64> {
         let size = self.extent.map(|[low, high]| if high > low { high - low } else { 1.0 });
         let later = self.points.get(samples..).filter(|rest| !rest.is_empty() && samples > 0)?;
@@ -45,8 +45,8 @@ impl PhasePortrait {
         Some(self.points.iter().zip(later).map(apart).fold(0.0, f64::max))
     }
 
-    /// Area inside the path over whole periods by the shoelace formula, x times x': pi a^2 omega for one turn of a
-    /// sine; positive clockwise, as all motion goes.
+    /// Area inside the path over whole periods by the shoelace formula, in units of x times x': pi a^2 omega for one
+    /// period of a sine. It is positive clockwise, which is the direction of every motion.
     pub fn area(&self) -> f64 {
         let next = self.points.iter().cycle().skip(1);
         self.points.iter().zip(next).map(|(a, b)| 0.5 * (b[0] * a[1] - a[0] * b[1])).sum()

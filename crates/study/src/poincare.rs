@@ -1,16 +1,16 @@
-//! Sections of a motion: once a period, or whenever a surface is crossed.
+//! Poincare sections of a motion: once per period, or whenever a surface is crossed.
 
 use crate::error::{StudyError, positive};
 
 /// Points of a motion at offset, offset + period, ... by cubic interpolation between its samples.
 ///
-/// `times` ascend; `columns[c][k]` is quantity c at `times[k]`. The result holds one point a period, each with one
-/// entry a column. A period should have a dozen samples or more: the interpolation (through the two samples on either
+/// `times` ascend; `columns[c][k]` is quantity c at `times[k]`. The result has one point per period, each with one
+/// entry per column. A period should have a dozen samples or more: the interpolation (through the two samples on either
 /// side) is of third order.
 ///
 /// # Errors
-/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend, a period that is not
-/// positive or shorter than the samples are apart.
+/// [`StudyError`] for columns of different lengths, entries that are not finite, times that do not ascend, and a period
+/// that is not positive or is shorter than the distance of the samples.
 pub fn stroboscopic_section(
     times: &[f64],
     columns: &[&[f64]],
@@ -21,10 +21,11 @@ pub fn stroboscopic_section(
     section_points(times, columns, &at)
 }
 
-/// Times of a section: offset, offset + period, ... as far as the samples at `times` reach.
+/// Times of a section: offset, offset + period, ... up to the last of the samples at `times`.
 ///
 /// # Errors
-/// [`StudyError`] for times that do not ascend, a period that is not positive or shorter than the samples are apart.
+/// [`StudyError`] for times that do not ascend, and a period that is not positive or is shorter than the distance of
+/// the samples.
 pub fn section_times(times: &[f64], period: f64, offset: f64) -> Result<Vec<f64>, StudyError> {
     check(times, &[])?;
     positive("period", period)?;
@@ -42,21 +43,21 @@ pub fn section_times(times: &[f64], period: f64, offset: f64) -> Result<Vec<f64>
     Ok((start..=end).map(|k| (offset + k as f64 * period).clamp(first, last)).collect())
 }
 
-/// Points of a motion at the times `at`, by cubic interpolation through the two samples on either side: of a long motion
-/// the samples around them are enough.
+/// Points of a motion at the times `at`, by cubic interpolation through the two samples on either side. For a long
+/// motion the samples around these times are sufficient.
 ///
 /// # Errors
-/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend.
+/// [`StudyError`] for columns of different lengths, entries that are not finite, times that do not ascend.
 pub fn section_points(times: &[f64], columns: &[&[f64]], at: &[f64]) -> Result<Vec<Vec<f64>>, StudyError> {
     check(times, columns)?;
     Ok(at.iter().map(|&t| columns.iter().map(|column| interpolated(times, column, t)).collect()).collect())
 }
 
-/// Points at which `surface` goes through zero from below, the columns interpolated to that time; one point a crossing,
+/// Points at which `surface` crosses zero upwards, with the columns interpolated to that time; one point per crossing,
 /// time first.
 ///
 /// # Errors
-/// As for [`stroboscopic_section`].
+/// The errors of [`stroboscopic_section`].
 pub fn crossing_section(times: &[f64], surface: &[f64], columns: &[&[f64]]) -> Result<Vec<Vec<f64>>, StudyError> {
     check(times, columns)?;
     check(times, &[surface])?;
@@ -80,12 +81,12 @@ pub fn crossing_section(times: &[f64], surface: &[f64], columns: &[&[f64]]) -> R
     Ok(points)
 }
 
-/// Points of a map applied again and again: `skip` times before the first, then `keep` points.
+/// Points of a map that is applied repeatedly: `skip` times before the first point, then `keep` points.
 ///
-/// `step` carries the state one period on and returns the point it lands on.
+/// `step` advances the state by one period and returns the resulting point.
 ///
 /// # Errors
-/// The map's own.
+/// The errors of the map.
 pub fn iterated_section<S, P, E>(
     state: &mut S,
     skip: usize,
@@ -98,11 +99,11 @@ pub fn iterated_section<S, P, E>(
     (0..keep).map(|_| step(state)).collect()
 }
 
-/// Period of a section: the least m for which every point comes back after m, within `tolerance` times the extent of
-/// each column over all points. `None` when no m up to a third of the points does: quasi-periodic, chaotic, or not
-/// settled.
+/// Period of a section: the smallest m for which every point repeats after m points, within `tolerance` times the
+/// extent of each column over all points. `None` if no m up to a third of the points does: the motion is
+/// quasi-periodic, chaotic, or not settled.
 ///
-/// Columns that do not move at all count as coming back.
+/// Columns that are constant count as repeating.
 pub fn section_period(points: &[Vec<f64>], tolerance: f64, scale: &[f64]) -> Option<usize> {
     let comes_back = |m: usize| {
         points

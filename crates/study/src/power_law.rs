@@ -1,22 +1,22 @@
-//! Scaling exponents: a power law through measured costs.
+//! Scaling exponents: a power law fitted to measured costs.
 
 use crate::StudyError;
 
-/// `y = factor * x^exponent`, fitted.
+/// The fitted law `y = factor * x^exponent`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
     /// Exponent.
     pub exponent: f64,
-    /// y at x = 1, in the unit of the y.
+    /// y at x = 1, in the unit of y.
     pub factor: f64,
-    /// Largest |ln(y / fit)|: 0.1 means that every point is within about 10 % of the line.
+    /// Largest |ln(y / fit)|: 0.1 means that every point is within about 10 % of the fit.
     pub largest_residual: f64,
 }
 
-/// Least squares through (ln x, ln y).
+/// Least-squares fit through (ln x, ln y).
 ///
 /// # Errors
-/// [`StudyError::NoPowerLaw`] with fewer than two different x, or a value that is not above 0 and finite.
+/// [`StudyError::NoPowerLaw`] for fewer than two different x, or for a value that is not finite and above 0.
 ///
 /// # Example
 /// ```

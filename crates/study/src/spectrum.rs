@@ -1,4 +1,4 @@
-//! Amplitude spectra of records that are not whole cycles: windows, peaks between bins, sidebands.
+//! Amplitude spectra of records that are not whole cycles: windows, interpolated peaks, sidebands.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,18 +9,18 @@ use crate::{
     transform::real_transform,
 };
 
-/// Weight of the samples of a record, w(x) over 0 <= x < 1 (periodic).
+/// Window w(x), 0 <= x < 1 (periodic), by which the samples of a record are weighted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Window {
-    /// 1: for records of whole cycles; leaks otherwise.
+    /// 1: for records of whole cycles; otherwise it leaks.
     Rectangular,
-    /// (1 - cos 2 pi x) / 2: resolves neighbours four bins apart.
+    /// (1 - cos 2 pi x) / 2: resolves lines four bins apart.
     Hann,
-    /// Four-term Blackman-Harris: side lobes 92 dB down, so that a small sideband stands out beside a large carrier;
+    /// Four-term Blackman-Harris: side lobes at -92 dB, so that a small sideband is visible next to a large carrier;
     /// resolves eight bins.
     BlackmanHarris,
-    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins,
-    /// and because its top is flat the frequency of a peak is good to half a bin only.
+    /// Five-term flat top: an off-bin sine has its amplitude within 0.1 % without interpolation. It resolves ten bins.
+    /// Because its top is flat, the frequency of a peak is accurate only to half a bin.
     FlatTop,
 }
 
@@ -43,8 +43,8 @@ impl Window {
         terms.map(|(k, a)| if k % 2 == 0 { 1.0 } else { -1.0 } * a * (TAU * k as f64 * x).cos()).sum()
     }
 
-    /// Equivalent noise bandwidth in bins, mean of w^2 over the square of its mean: power of noise in a band is the sum
-    /// of amplitude^2 / 2 over this.
+    /// Equivalent noise bandwidth in bins, the mean of w^2 divided by the square of its mean. The power of noise in a
+    /// band is the sum of amplitude^2 / 2 divided by this.
     pub fn noise_bandwidth(self) -> f64 {
         let [first, rest @ ..] = self.terms() else { return 1.0 };
         1.0 + rest.iter().map(|a| 0.5 * a * a).sum::<f64>() / (first * first)
@@ -61,22 +61,22 @@ impl Window {
 /// ```text
 /// A(f) = 2 |sum_j w_j (x_j - mean) exp(-2 pi i f j / f_s)| / (n G),   G = mean of w
 /// ```
-/// A sine of amplitude 1 reads 1 at its frequency with any window, wherever that lies between the bins.
+/// A sine of amplitude 1 gives 1 at its frequency with any window, even if its frequency lies between the bins.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Spectrum {
-    /// Distance of the bins, f_s / n, Hz (the inverse of the unit that `rate` was given in).
+    /// Distance between the bins, f_s / n, Hz (the inverse of the time unit of `rate`).
     pub resolution: f64,
     /// Mean of the record (weighted by the window), in the unit of the samples.
     pub mean: f64,
-    /// A at f = 0, 1, 2, ... bins; what is at 0 is what the mean leaves.
+    /// Amplitudes A at f = 0, 1, 2, ... bins; at 0 it is the remainder after the mean is removed.
     pub amplitudes: Vec<f64>,
-    /// Window.
+    /// Window of the spectrum.
     pub window: Window,
     #[serde(skip)]
     windowed: Vec<f64>,
 }
 
-/// A line of a spectrum, interpolated between bins.
+/// A spectral line, interpolated between bins.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Peak {
     /// Frequency, Hz.
@@ -85,23 +85,22 @@ pub struct Peak {
     pub amplitude: f64,
 }
 
-/// Lines at equal distances on either side of a carrier.
+/// Lines at equal distances on both sides of a carrier.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sidebands {
     /// The carrier.
     pub carrier: Peak,
-    /// Below and above, at once, twice, ... the spacing.
+    /// The lines below and above the carrier, at one, two, ... times the spacing.
     pub pairs: Vec<[Peak; 2]>,
-    /// Median of the spectrum's bins within reach that hold neither carrier nor sideband: what a line must stand out
-    /// of.
+    /// Noise floor: median of the bins in this range that contain neither carrier nor sideband. A real line exceeds it.
     pub floor: f64,
 }
 
-/// Spectrum of `samples`, taken `rate` times a second.
+/// Spectrum of `samples` with sampling rate `rate`, samples per second.
 ///
 /// # Errors
-/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample that is not a number,
-/// [`StudyError::NotPositive`] for a rate that is not above 0.
+/// [`StudyError::TooFewSamples`] for fewer than 8 samples, [`StudyError::NotFinite`] for a sample that is not a finite
+/// number, [`StudyError::NotPositive`] for a rate that is not above 0.
 ///
 /// # Example
 /// ```
@@ -136,7 +135,7 @@ pub fn spectrum(samples: &[f64], rate: f64, window: Window) -> Result<Spectrum, 
 }
 
 impl Spectrum {
-    /// A(f) at any frequency up to half of the sampling, Hz.
+    /// Amplitude A(f) at any frequency up to half of the sampling rate, Hz.
     pub fn amplitude_at(&self, frequency: f64) -> f64 {
         let step = TAU * frequency / (self.resolution * self.windowed.len() as f64);
         let (mut re, mut im) = (0.0, 0.0);
@@ -148,8 +147,8 @@ impl Spectrum {
         re.hypot(im)
     }
 
-    /// Local maxima of at least `least` (unit of the samples), ascending in frequency, each at its true place between
-    /// the bins.
+    /// Local maxima of at least `least` (in the unit of the samples), ascending in frequency, each at its interpolated
+    /// frequency.
     pub fn peaks(&self, least: f64) -> Vec<Peak> {
         let a = &self.amplitudes;
         (1..a.len().saturating_sub(1))
@@ -166,15 +165,15 @@ impl Spectrum {
         inner.max_by(|&i, &j| self.amplitudes[i].total_cmp(&self.amplitudes[j])).map(|k| self.refined(k))
     }
 
-    /// The line nearest to `frequency` (Hz) within one bin of it: its true maximum there.
+    /// The line nearest to `frequency` (Hz) within one bin, with its interpolated maximum.
     pub fn near(&self, frequency: f64) -> Peak {
         self.maximum([frequency - self.resolution, frequency + self.resolution])
     }
 
-    /// Sidebands of the line at `carrier` (Hz), `spacing` (Hz) apart, `orders` on either side.
+    /// Sidebands of the line at `carrier` (Hz), spaced by `spacing` (Hz), `orders` on either side.
     ///
     /// # Errors
-    /// [`StudyError::Unresolved`] when the spacing is not wider than the window's main lobe: take a longer record.
+    /// [`StudyError::Unresolved`] if the spacing is not wider than the window's main lobe: use a longer record.
     pub fn sidebands(&self, carrier: f64, spacing: f64, orders: usize) -> Result<Sidebands, StudyError> {
         let least = 2.0 * self.window.half_lobe() * self.resolution;
         if !(spacing >= least && carrier.is_finite()) {
@@ -227,7 +226,7 @@ impl Spectrum {
     }
 }
 
-/// Largest loss of amplitude of a line half a bin off, without interpolation: 1 - A(1/2 bin) / A(0).
+/// Largest loss of amplitude for a line half a bin off, without interpolation: 1 - A(1/2 bin) / A(0).
 pub fn scalloping_loss(window: Window) -> f64 {
     // sum of the Dirichlet kernels of the window's cosines at half a bin.
     let sinc = |x: f64| if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) };

@@ -1,4 +1,4 @@
-//! The one place that calls the FFT library.
+//! The only call of the FFT library.
 
 use realfft::{RealFftPlanner, num_complex::Complex};
 

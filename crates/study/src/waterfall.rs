@@ -1,24 +1,24 @@
-//! Spectra of a record, and a waterfall of one whose speed changes.
+//! Spectra of a record, and a waterfall of spectra of a record with changing speed.
 
 use crate::{StudyError, Window, spectrum as record_spectrum};
 
-/// Lines of a record; line 0 is the mean.
+/// Spectral lines of a record; line 0 is the mean.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MotionSpectrum {
-    /// Orders of the mesh frequency.
+    /// Orders relative to the mesh frequency.
     pub orders: Vec<f64>,
     /// Frequencies, Hz.
     pub frequencies: Vec<f64>,
-    /// Amplitudes, quantity by quantity.
+    /// Amplitudes, one list per quantity.
     pub amplitudes: Vec<Vec<f64>>,
 }
 
 impl MotionSpectrum {
-    /// Spectra of the whole record of `cycles` mesh cycles. A quantity is a list of components, whose amplitudes are those of a
-    /// vector: the length of all.
+    /// Spectra of a whole record of `cycles` mesh cycles. A quantity is a list of components; its amplitude is the norm
+    /// of their amplitudes.
     ///
     /// # Errors
-    /// [`StudyError`] for a record that contains a value that is not a number.
+    /// [`StudyError`] for a record with a value that is not a finite number.
     pub fn of(
         quantities: &[Vec<&[f64]>],
         (cycles, mesh_frequency_hz): (f64, f64),
@@ -47,50 +47,50 @@ fn amplitudes(samples: &[f64], window: Window) -> Result<Vec<f64>, StudyError> {
     Ok(of.amplitudes)
 }
 
-/// Order spectra of a motion whose speed changes.
+/// Order spectra of a motion with changing speed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Waterfall {
-    /// Mesh orders from one line of a spectrum to the next.
+    /// Distance between spectral lines, in mesh orders.
     pub order_step: f64,
-    /// Spectra, stretch by stretch.
+    /// Spectra, one per section of the record.
     pub lines: Vec<WaterfallLine>,
 }
 
 /// One spectrum of a waterfall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaterfallLine {
-    /// Middle of the stretch, s.
+    /// Time at the middle of the section, s.
     pub time: f64,
-    /// Mean speed of what the record has the speed of, 1/min.
+    /// Mean speed of the reference shaft of the record, 1/min.
     pub speed_rpm: f64,
     /// Mean mesh frequency, Hz.
     pub mesh_frequency_hz: f64,
-    /// Amplitudes, quantity by quantity, at multiples of the order step from 0 on.
+    /// Amplitudes, one list per quantity, at multiples of the order step, starting with 0.
     pub amplitudes: Vec<Vec<f64>>,
 }
 
 impl WaterfallLine {
-    /// Amplitude of the first quantity at a mesh order, where the spectrum reaches so far.
+    /// Amplitude of the first quantity at a mesh order, if the spectrum contains this order.
     pub fn first_at(&self, order: usize, order_step: f64) -> Option<f64> {
         self.amplitudes.first()?.get((order as f64 / order_step).round() as usize).copied()
     }
 }
 
-/// Stretches of a record of which each has a spectrum, in values.
+/// Sections of a record, each with its own spectrum, measured in values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretches {
-    /// Length of a stretch.
+    /// Number of values in a section.
     pub length: usize,
-    /// From the beginning of a stretch to that of the next.
+    /// Number of values from the beginning of a section to that of the next.
     pub hop: usize,
-    /// Values in a mesh cycle.
+    /// Number of values per mesh cycle.
     pub per_cycle: f64,
-    /// Mesh cycles a turn of what the record has the speed of.
+    /// Mesh cycles per rotation of the reference shaft.
     pub cycles_per_turn: f64,
 }
 
 impl Stretches {
-    /// Stretches of so many whole mesh cycles in a record of `values`, each half over the one before.
+    /// Sections of a number of whole mesh cycles in a record of `values`; each overlaps the preceding one by half.
     pub fn of_cycles(values: usize, (per_cycle, cycles): (usize, usize), teeth: u32) -> Self {
         let length = per_cycle * cycles.max(1).min((values / per_cycle.max(1)).max(1));
         let hop = (length / 2 / per_cycle.max(1)).max(1) * per_cycle;
@@ -98,15 +98,15 @@ impl Stretches {
     }
 }
 
-/// Order spectra with a window of Hann over stretches of a record, whose values are evenly spaced in each mesh cycle or all
-/// along the turn, so that orders stay in their bins as the speed changes.
+/// Order spectra with a Hann window over sections of a record. The values are evenly spaced in each mesh cycle or over
+/// the rotation, so orders stay in their bins while the speed changes.
 ///
-/// A quantity is a list of components, whose amplitudes are those of a vector: the length of all. `at`: times (s) and
-/// speeds (1/min) of the values.
+/// A quantity is a list of components; its amplitude is the norm of their amplitudes. `at` has the times (s) and speeds
+/// (1/min) of the values.
 ///
 /// # Errors
-/// [`StudyError`] for a record that contains a value that is not a number, for lists of different lengths, and for stretches
-/// without values.
+/// [`StudyError`] for a record with a value that is not a finite number, for lists of different lengths, and for
+/// sections without values.
 pub fn waterfall(
     quantities: &[Vec<&[f64]>],
     (time, speed): (&[f64], &[f64]),

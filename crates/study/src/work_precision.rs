@@ -1,79 +1,79 @@
-//! Accuracy against cost: what a way of computing a mesh cycle gave, and what it took.
+//! Accuracy against cost of a method that computes a mesh cycle.
 
 use serde::Serialize;
 
 use crate::{StudyError, error::check};
 
-/// What one mesh cycle came out as: evenly spaced positions, the first at phase 0, the end left out.
+/// Result for one mesh cycle at evenly spaced positions, the first at phase 0, without the end point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Answer {
     /// Transmission error at each position, um.
     pub ste_um: Vec<f64>,
-    /// Total contact-line length at each position, mm; empty where a program does not tell it.
+    /// Total contact-line length at each position, mm; empty if a program does not give it.
     pub line_length_mm: Vec<f64>,
 }
 
-/// How far an answer is off a reference.
+/// Difference of a result from a reference.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AnswerError {
-    /// Mean of STE minus mean of the reference at the same positions, relative.
+    /// Mean STE minus that of the reference at the same positions, relative.
     pub mean_ste: f64,
-    /// Peak-to-peak STE minus that of the reference, relative; `None` unless the answer has every position of the
+    /// Peak-to-peak STE minus that of the reference, relative; `None` unless the result has all positions of the
     /// reference.
     pub peak_to_peak_ste: Option<f64>,
     /// Mean contact-line length minus that of the reference at the same positions, relative.
     pub mean_line_length: Option<f64>,
 }
 
-/// Cost: wall times in s.
+/// Cost: wall-clock times in s.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Work {
-    /// Everything before the first position: meshes, matrices, factors, condensation.
+    /// Time before the first position: meshes, matrices, factors, condensation.
     pub offline_s: f64,
-    /// All positions of the first mesh cycle.
+    /// Time for all positions of the first mesh cycle.
     pub cycle_s: f64,
-    /// All positions of a later cycle, where one was run.
+    /// Time for all positions of a later cycle, if one was run.
     pub further_cycle_s: Option<f64>,
-    /// Positions of the cycle that were run. Times of a cycle are scaled from them where they are fewer than
-    /// [`Work::positions_asked`].
+    /// Number of positions of the cycle that were run. If they are fewer than [`Work::positions_asked`], times of a
+    /// cycle are extrapolated.
     pub positions_run: usize,
-    /// Positions of the cycle.
+    /// Number of positions of the cycle.
     pub positions_asked: usize,
-    /// Largest resident set, MB = 10^6 bytes; `None` where the system does not tell.
+    /// Largest resident set, MB = 10^6 bytes; `None` if the operating system does not report it.
     pub peak_memory_mb: Option<f64>,
     /// Degrees of freedom of both gears as meshed.
     pub dof_before: usize,
-    /// Degrees of freedom of both gears that every position carries.
+    /// Degrees of freedom of both gears that are solved at every position.
     pub dof_after: usize,
 }
 
 impl Work {
-    /// Offline work and the first cycle, s.
+    /// Time for offline work and the first cycle, s.
     pub fn first_cycle_s(&self) -> f64 {
         self.offline_s + self.cycle_s
     }
 
-    /// One more cycle, s: measured, or the first one again.
+    /// Time for one more cycle, s: measured, otherwise that of the first cycle.
     pub fn another_cycle_s(&self) -> f64 {
         self.further_cycle_s.unwrap_or(self.cycle_s)
     }
 
-    /// One position of a cycle after the first, s.
+    /// Time for one position of a cycle after the first, s.
     pub fn position_s(&self) -> f64 {
         self.another_cycle_s() / self.positions_asked.max(1) as f64
     }
 
-    /// How often the degrees of freedom of a position go into those of the meshes; `None` for a model without meshes.
+    /// Degrees of freedom of the meshes divided by those solved at a position; `None` for a model without meshes.
     pub fn dof_reduction(&self) -> Option<f64> {
         (self.dof_after > 0).then(|| self.dof_before as f64 / self.dof_after as f64)
     }
 }
 
 impl Answer {
-    /// Relative errors against a reference that has this answer's positions among its own.
+    /// Relative errors compared with a reference whose positions include those of this result.
     ///
     /// # Errors
-    /// [`StudyError::OtherPositions`] when it has not, [`StudyError::NotFinite`] when a value is no number.
+    /// [`StudyError::OtherPositions`] if they do not, [`StudyError::NotFinite`] if a value is not a finite number.
     ///
     /// # Example
     /// ```

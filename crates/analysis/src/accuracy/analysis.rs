@@ -1,4 +1,4 @@
-//! A scene at rest with bounds, by the cheapest rung of the ladder that keeps what is asked.
+//! Static analysis of a scene with error bounds, on the cheapest rung of the ladder that meets the requested accuracy.
 
 use mesh::Mesh;
 use scene::Scene;
@@ -14,11 +14,12 @@ use crate::{
     error::in_scene, refused::Refusal, statics::CycleAnalysis,
 };
 
-/// A scene at rest that is to be solved with bounds.
+/// A static scene to be solved with error bounds.
 ///
-/// With `model = "auto"` the cheapest rung of the ladder is taken that keeps what `[accuracy]` asks: the first guess comes
-/// from the calibration, the proof from the estimate of the run; where that falls short, what it is mostly made of is
-/// refined. Of any other model the bounds of the run are estimated; of a scene that asks for no accuracy, none are.
+/// With `model = "auto"` the cheapest rung of the ladder is used that meets `[accuracy]`. The first guess comes from
+/// the calibration, the proof from the error estimate of the run. If the accuracy is not met, the largest cause of the
+/// error is refined. For other models the bounds of the run are estimated; for a scene without `[accuracy]` there are
+/// none.
 #[derive(Clone, Copy)]
 pub struct StaticAnalysis<'a> {
     scene: &'a Scene,
@@ -40,26 +41,26 @@ impl<'a> StaticAnalysis<'a> {
         Self { scene, meshes: None, cache: &NoCache, shared: None, tells_facts: true }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
-    /// are, and have no bounds.
+    /// Uses meshes of pinion and wheel from the caller instead of those of the scene. They are checked like mesh files
+    /// and have no error bounds.
     #[must_use]
     pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
     }
 
-    /// Slices over the face width that it takes; `None` for a model without slices.
+    /// Number of slices over the face width; `None` for a model without slices.
     pub fn slices(&self) -> Option<u32> {
         CycleAnalysis::new(self.scene).slices()
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// On what earlier scenes of its kind have left, as [`SharedModels`] says; rungs of a ladder, whose meshes
-    /// differ, share nothing.
+    /// Shares gears with earlier scenes of its kind, see [`SharedModels`]. Rungs of a ladder share nothing, because
+    /// their meshes differ.
     #[must_use]
     pub fn with_shared(self, models: &'a SharedModels<'a>) -> Self {
         Self { shared: Some(models), ..self }
@@ -72,7 +73,7 @@ impl<'a> StaticAnalysis<'a> {
         Self { tells_facts: false, ..self }
     }
 
-    /// Solves it, telling nobody.
+    /// Solves it without progress reports.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -80,9 +81,9 @@ impl<'a> StaticAnalysis<'a> {
         self.solve_into(&mut NoObserver, &mut NoSink)
     }
 
-    /// Solves it; positions go into `sink` as they come, from the beginning at every rung.
+    /// Solves it; positions are passed to `sink` as they are solved, again from the beginning at every rung.
     ///
-    /// What cannot be kept on the finest rung is an answer all the same: [`Accuracy::is_met`] says so.
+    /// If the finest rung does not meet the accuracy, its result is returned nevertheless; [`Accuracy::is_met`] tells.
     ///
     /// # Errors
     /// [`AnalysisError`].

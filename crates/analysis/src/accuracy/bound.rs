@@ -1,33 +1,33 @@
-//! Bounds of headline numbers, split by cause.
+//! Error bounds of headline values, split by cause.
 
 use scene::{Quantity, Tolerance};
 use serde::Serialize;
 
 use crate::worse;
 
-/// What makes a number differ from that of the exact pair.
+/// Cause of the difference between a value and that of the exact pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
-    /// Finite elements of finite size.
+    /// Finite element size.
     Mesh,
-    /// Contact lines cut into slices.
+    /// Finite number of slices of the contact lines.
     Slices,
-    /// Positions of the mesh cycle that are not looked at.
+    /// Finite number of positions of the mesh cycle.
     Positions,
     /// Interpolation of the bulk compliance between heights.
     Interpolation,
-    /// Contact iterations that end.
+    /// Finite number of contact iterations.
     Iteration,
-    /// Elements along the shafts of a gearbox that vibrates.
+    /// Finite number of elements along the shafts of a vibrating gearbox.
     ShaftElements,
-    /// Steps of time.
+    /// Finite time steps.
     Step,
-    /// Inertia of elastic deformation that the model leaves out.
+    /// Neglected inertia of elastic deformation.
     QuasiStaticElasticity,
     /// A model with fewer coordinates than the flanks have.
     Model,
-    /// A transient that has not died out.
+    /// A transient that has not decayed.
     Settling,
 }
 
@@ -89,10 +89,10 @@ described::described! {
 }
 
 impl Bound {
-    /// Bound of a value and what its error is made of.
+    /// Bound of a value, and the terms of its error.
     ///
-    /// `above` and `below` hold the whole known error and its uncertainty; the corrected value has those known parts
-    /// alone that are larger than their uncertainty, and the others count to what it may be off by.
+    /// `above` and `below` contain the whole known error and its uncertainty. The corrected value contains only those
+    /// known parts that are larger than their uncertainty; the others are added to its uncertainty.
     pub fn new(quantity: Quantity, value: f64, terms: Vec<Term>) -> Self {
         let sum = |terms: &[Term]| terms.iter().fold(value, |sum, t| sum + t.known);
         let within: f64 = terms.iter().map(|t| t.amount).sum();
@@ -113,19 +113,19 @@ impl Bound {
         }
     }
 
-    /// This bound as that of a mesh or a bearing.
+    /// This bound as that of a named mesh or bearing.
     #[must_use]
     pub fn of(self, name: Option<String>) -> Self {
         Self { of: name, ..self }
     }
 
-    /// Key of the number, and what it is of: `face_load_factor of first`.
+    /// Key of the value, and the part that it belongs to: `face_load_factor of first`.
     pub fn name(&self) -> String {
         let key = self.quantity.key();
         self.of.as_ref().map_or_else(|| key.to_owned(), |of| format!("{key} of {of}"))
     }
 
-    /// This bound against what is asked; a share is one of the value.
+    /// This bound compared with the requested tolerance; a share is relative to the value.
     #[must_use]
     pub fn against(self, tolerance: Option<Tolerance>) -> Self {
         let asked = tolerance.map(|t| t.of(self.value));
@@ -143,17 +143,17 @@ impl Bound {
         self.largest() / self.asked.unwrap_or(f64::INFINITY)
     }
 
-    /// What a cause makes of the bound: what is known of it, and what is not.
+    /// Contribution of a cause to the bound: its known part, and its uncertainty.
     pub fn by(&self, cause: Cause) -> f64 {
         self.terms.iter().filter(|t| t.cause == cause).map(|t| t.known.abs() + t.amount).sum()
     }
 
-    /// Bound beside what is asked, in words.
+    /// Text with the bound and the requested tolerance.
     pub fn shortfall(&self) -> String {
         format!("{} is known to {}, {} is asked", self.name(), self.of_unit(self.largest()), self.asked_words())
     }
 
-    /// What is asked, in words: three digits and the unit.
+    /// Text of the requested tolerance: three digits and the unit.
     pub fn asked_words(&self) -> String {
         self.of_unit(self.asked.unwrap_or(f64::NAN))
     }
@@ -163,7 +163,7 @@ impl Bound {
         format!("{} {}", answer::digits(amount), self.unit).trim_end().to_owned()
     }
 
-    /// Value and bounds in words: `9.37 +0.04 -0.01 um`.
+    /// Text of value and bounds: `9.37 +0.04 -0.01 um`.
     pub fn words(&self) -> String {
         let Self { value, above, below, unit, .. } = self;
         // Two digits of the larger side say enough, and so do six of the value.

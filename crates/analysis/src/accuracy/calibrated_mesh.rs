@@ -1,4 +1,4 @@
-//! Meshes whose errors are known from random pairs.
+//! Meshes whose errors are calibrated on random pairs.
 
 use mesh::StructuredOptions;
 use scene::{GearScene, MesherScene, Scene};
@@ -6,18 +6,19 @@ use serde::{Deserialize, Serialize};
 
 use super::Rung;
 
-/// A mesh of the built-in mesher that the calibration has measured.
+/// A mesh of the built-in mesher for which the calibration has measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibratedMesh {
-    /// A rung of the ladder, by its elements along the profile.
+    /// A rung of the ladder, given by its elements along the profile.
     Rung(u32),
-    /// What the mesher makes where the scene says nothing.
+    /// The mesher's default.
     Default,
 }
 
 impl CalibratedMesh {
-    /// That of both gears of a scene; `None` for any other, and for open sectors, which are other bodies.
+    /// The calibrated mesh of both gears of a scene. `None` for any other mesh, and for open sectors, which are
+    /// different bodies.
     pub fn of(scene: &Scene) -> Option<Self> {
         if scene.gears().iter().any(|g| g.mesher.is_none_or(|m| m.sector_teeth > 1)) {
             return None;
@@ -34,7 +35,7 @@ impl CalibratedMesh {
         rung.or(is_default.then_some(Self::Default))
     }
 
-    /// In words.
+    /// Text for messages.
     pub fn words(self) -> String {
         match self {
             Self::Rung(n) => format!("meshes of {n} elements along the profile"),

@@ -1,4 +1,5 @@
-//! The one loop of all ladders: settings are tried, coarse to fine, until their bounds keep what is asked.
+//! The common loop of all ladders: settings are tried from coarse to fine until their bounds meet the requested
+//! accuracy.
 
 use super::Accuracy;
 use crate::{AnalysisError, Observer};

@@ -1,4 +1,4 @@
-//! What a run is held against: the same pair on another mesh, at a share of the positions.
+//! Companion of a run for comparison: the same pair on another mesh, at a part of the positions.
 
 use scene::{Method, Model, Reduction, Scene};
 
@@ -20,7 +20,7 @@ pub(super) enum Standing {
 }
 
 impl Standing {
-    /// `covered`: the scene is like those of the calibration.
+    /// `covered` tells whether the scene is similar to those of the calibration.
     pub fn of(scene: &Scene, covered: bool) -> Self {
         let sliced = scene.analysis.model == Model::Reduced && scene.contact.method == Method::Slice;
         let mesh = CalibratedMesh::of(scene).filter(|mesh| sliced && Calibration::committed().knows(*mesh));
@@ -31,7 +31,7 @@ impl Standing {
         }
     }
 
-    /// The mesh whose laws hold.
+    /// The mesh whose laws are used.
     pub fn mesh(self) -> CalibratedMesh {
         match self {
             Self::Calibrated(mesh) => mesh,
@@ -39,7 +39,7 @@ impl Standing {
         }
     }
 
-    /// What a run is held against, in words.
+    /// Text that describes the companion.
     pub fn words(self) -> String {
         match self {
             Self::Calibrated(mesh) => format!("random pairs on {}", mesh.words()),
@@ -68,7 +68,7 @@ pub(crate) struct Companion {
 pub(crate) struct Companions(Option<(Scene, Companion)>);
 
 impl Companions {
-    /// The companion of a run, solved where the last one is of another scene.
+    /// The companion of a run; it is solved if the last companion belongs to another scene.
     ///
     /// # Errors
     /// [`AnalysisError`].

@@ -1,4 +1,4 @@
-//! What bounds do not cover: scenes unlike those of the calibration, and what no mesh can know.
+//! Scenes that the bounds do not cover: scenes unlike those of the calibration, and effects that no mesh can show.
 
 use std::{f64::consts::PI, ops::RangeInclusive};
 

@@ -1,4 +1,4 @@
-//! Flanks, racks and materials unlike those of the random pairs that bounds are calibrated on.
+//! Flanks, racks and materials unlike those of the random pairs of the calibration.
 
 use std::ops::RangeInclusive;
 

@@ -1,4 +1,4 @@
-//! Curves over the mesh cycle that headline numbers at rest are taken from.
+//! Curves over the mesh cycle from which static headline values are computed.
 
 use ltca::{StaticHistory, StaticPosition};
 use scene::Quantity;
@@ -7,10 +7,10 @@ use study::{Between, cycle_statistics, mesh_harmonics};
 
 use crate::results::largest_tensions;
 
-/// Values at all positions of a run at rest, in the units of the headline.
+/// Values at all positions of a static run, in the units of the headline.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curves {
-    /// Whole mesh cycles.
+    /// Number of whole mesh cycles.
     pub cycles: usize,
     /// Transmission error, um.
     pub ste_um: Vec<f64>,
@@ -24,12 +24,12 @@ pub struct Curves {
     pub line_length_mm: Vec<f64>,
     /// Secant and tangent stiffness of the mesh, N/um.
     pub stiffness_n_per_um: [Vec<f64>; 2],
-    /// Largest tension in the fillets of pinion and wheel, MPa; empty where nobody asked.
+    /// Largest tension in the fillets of pinion and wheel, MPa; empty if not requested.
     pub root_stress_mpa: [Vec<f64>; 2],
 }
 
 impl Curves {
-    /// Curves of a run over whole mesh cycles.
+    /// Curves of a run over a number of whole mesh cycles.
     pub fn of(history: &StaticHistory, cycles: usize) -> Self {
         let positions = &history.positions;
         let all = |of: &dyn Fn(&StaticPosition) -> f64| positions.iter().map(of).collect::<Vec<f64>>();
@@ -49,7 +49,7 @@ impl Curves {
         }
     }
 
-    /// Every so manieth position of them.
+    /// Every `stride`-th position of the curves.
     #[must_use]
     pub fn every(&self, stride: usize) -> Self {
         let of = |curve: &Vec<f64>| curve.iter().step_by(stride.max(1)).copied().collect::<Vec<f64>>();
@@ -65,7 +65,7 @@ impl Curves {
         }
     }
 
-    /// The value of a quantity, as the headline has it; `None` where the curves do not have it.
+    /// The value of a quantity, as in the headline; `None` if the curves do not contain it.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
         let curve = self.curve(quantity)?;
         match Kind::of(quantity)? {
@@ -79,7 +79,7 @@ impl Curves {
         }
     }
 
-    /// What a quantity may miss between its positions; `None` where the curves do not have it.
+    /// Possible error of a quantity between the positions; `None` if the curves do not contain it.
     pub fn between(&self, quantity: Quantity) -> Option<Between> {
         let curve = self.curve(quantity)?;
         match Kind::of(quantity)? {
@@ -90,7 +90,7 @@ impl Curves {
         }
     }
 
-    /// Mean transmission error without what micro-geometry and misalignment make of it unloaded, um.
+    /// Mean transmission error minus the unloaded transmission error of micro-geometry and misalignment, um.
     pub fn deflection(&self) -> f64 {
         let elastic = self.ste_um.iter().zip(&self.kinematic_um).map(|(loaded, free)| loaded - free);
         elastic.sum::<f64>() / self.ste_um.len() as f64

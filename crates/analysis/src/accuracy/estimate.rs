@@ -1,4 +1,4 @@
-//! Bounds of the headline numbers of a solved cycle.
+//! Error bounds of the headline values of a solved cycle.
 
 use scene::{Quantity, Scene};
 

@@ -1,4 +1,4 @@
-//! How exact a result is, and what was tried for it.
+//! Accuracy of a result, and the settings tried for it.
 
 use serde::Serialize;
 
@@ -32,12 +32,12 @@ described::described! {
 }
 
 impl Accuracy {
-    /// Whether everything that is asked is kept.
+    /// Whether all requested accuracies are met.
     pub fn is_met(&self) -> bool {
         self.bounds.iter().all(|b| b.met != Some(false))
     }
 
-    /// What is asked and not kept.
+    /// Requested accuracies that are not met.
     pub fn missed(&self) -> impl Iterator<Item = &Bound> {
         self.bounds.iter().filter(|b| b.met == Some(false))
     }

@@ -1,4 +1,4 @@
-//! What of a solved pair tells how large its errors are.
+//! Features of a solved pair on which the magnitude of its errors depends.
 
 use geometry::GearPair;
 use lumped::iso::rim_ratio;
@@ -6,10 +6,10 @@ use scene::{Quantity, Scene};
 
 use super::{Sample, WholeForce};
 
-/// How many there are.
+/// Number of features.
 pub const FEATURES: usize = 14;
 
-/// What laws of errors know of a solved cycle, each of the order of one. Theory (64).
+/// Features of a solved cycle for error laws, each of order one. Theory (64).
 pub type Features = [f64; FEATURES];
 
 /// Where the logarithm of a share ends.
@@ -71,7 +71,7 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
     ]
 }
 
-/// Whether these are features of a spur pair: one without overlap.
+/// Whether these are features of a spur pair, which has no overlap.
 pub fn is_spur(x: &Features) -> bool {
     x[8] == 0.0
 }

@@ -1,4 +1,4 @@
-//! Gears that are reduced already stay in memory: from rung to rung of the ladder, and for who asks again.
+//! Keeps reduced gears in memory, from rung to rung of the ladder and for later requests.
 
 use answer::Remark;
 use std::{
@@ -11,19 +11,19 @@ use reduction::{PartStore, RecordKey, ReductionRecord};
 
 use crate::{GearCache, Kept, MapKey, SoundKey};
 
-/// Reduced gears in memory before the caller's own store.
+/// Reduced gears in memory, in front of the caller's own store.
 pub struct GearMemo<'a> {
     store: Arc<dyn GearCache + Send + 'a>,
     kept: Mutex<BTreeMap<String, ReductionRecord>>,
 }
 
 impl<'a> GearMemo<'a> {
-    /// None yet, but those of `store`.
+    /// An empty memo in front of `store`.
     pub fn new(store: &'a dyn GearCache) -> Self {
         Self::holding(Arc::new(store))
     }
 
-    /// Memo over a store that others may hold as well.
+    /// A memo in front of a store that may be shared.
     pub fn holding(store: Arc<dyn GearCache + Send + 'a>) -> Self {
         Self { store, kept: Mutex::default() }
     }

@@ -1,21 +1,21 @@
-//! How an error goes with a difference that a run can see.
+//! Law for an error as a function of a difference that a run can measure.
 
 use serde::{Deserialize, Serialize};
 
-/// How the error of a number goes with a difference `d` that was seen. Theory (67).
+/// Law for the error of a value as a function of a measured difference `d`. Theory (67).
 ///
 /// ```text
 /// exact = value + pull d  +-  factor (|d| + floor scale)
 /// ```
-/// `scale` is the number itself, for transmission errors the mean deflection of the pair. The factor is that of
-/// split conformal prediction: the share of the calibration's pairs lies within.
+/// `scale` is the value itself; for transmission errors it is the mean deflection of the pair. The factor is that of
+/// split conformal prediction: the share of the calibration's pairs is within the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Law {
     /// Share of the difference that is the known part of the error.
     pub pull: f64,
-    /// Difference that is assumed at least, over the scale.
+    /// Smallest difference that is assumed, relative to the scale.
     pub floor: f64,
-    /// Bound over the difference.
+    /// Bound divided by the difference.
     pub factor: f64,
 }
 

@@ -1,9 +1,9 @@
-//! How exact is an answer, and which is the cheapest model that is exact enough?
+//! Error bounds of a result, and the cheapest model that is accurate enough.
 //!
-//! How large the errors of a solved cycle are, and how they go with the pair, was learnt from random pairs
-//! ([`Calibration`]): for scenes like these on meshes that were measured, that and half of its positions are enough.
-//! Any other cycle is held against a companion on a rung of the ladder, and against half its slices.
-//! [`StaticAnalysis`] climbs the ladder until the bounds keep what a scene asks for. Theory, section 15.
+//! The magnitude of the errors of a solved cycle, and its dependence on the pair, were calibrated on random pairs
+//! ([`Calibration`]). For similar scenes on calibrated meshes, this and half of the positions are sufficient. Any other
+//! cycle is compared with a companion on a rung of the ladder, and with half its slices. [`StaticAnalysis`] climbs the
+//! ladder until the bounds meet the accuracy that a scene requests. Theory, section 15.
 //!
 //! | file | question |
 //! |---|---|

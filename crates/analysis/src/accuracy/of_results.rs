@@ -1,4 +1,4 @@
-//! Bounds of cycles that are solved already: the points of a chart.
+//! Error bounds of cycles that are already solved: the points of a chart.
 
 use scene::{AccuracyScene, Scene};
 

@@ -1,4 +1,4 @@
-//! The headline numbers of a cycle at rest that bounds are given for.
+//! The headline values of a static cycle for which bounds are given.
 
 use ltca::{StaticHistory, StaticPosition};
 use scene::{Quantity, Scene};
@@ -6,7 +6,7 @@ use study::StudyError;
 
 use crate::results::{RootStressHeadline, StaticHeadline, static_headline};
 
-/// The value of a quantity in a run of a pair at rest; `None` where the run does not have it.
+/// The value of a quantity in a run of a static pair; `None` if the run does not contain it.
 pub fn value_of(quantity: Quantity, headline: &StaticHeadline) -> Option<f64> {
     let root = |of: fn(&RootStressHeadline) -> f64| headline.root_stress.as_ref().map(of);
     let harmonic = |order: usize| headline.ste_harmonics_um.get(order - 1).copied();
@@ -32,7 +32,7 @@ pub fn value_of(quantity: Quantity, headline: &StaticHeadline) -> Option<f64> {
     }
 }
 
-/// Values of all quantities of one cycle; NaN where a run does not have one.
+/// Values of all quantities of one cycle; NaN for a quantity that the run does not contain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     values: [f64; Quantity::ALL.len()],
@@ -40,8 +40,8 @@ pub struct Sample {
     deflection: f64,
 }
 
-/// Whether errors of a quantity go with the deflection of the pair, not with the quantity itself: transmission errors
-/// may be small where flanks that stand back cancel the deflection, or where they hardly vary.
+/// Whether errors of a quantity are proportional to the deflection of the pair instead of the quantity itself.
+/// Transmission errors may be small because the micro-geometry cancels the deflection, or because they hardly vary.
 pub fn goes_with_deflection(quantity: Quantity) -> bool {
     matches!(
         quantity,
@@ -54,12 +54,12 @@ pub fn goes_with_deflection(quantity: Quantity) -> bool {
 }
 
 impl Sample {
-    /// Sample of values and the mean deflection, um; NaN for what there is none of.
+    /// Sample of values and the mean deflection, um; NaN for missing values.
     pub fn new(value: impl Fn(Quantity) -> Option<f64>, deflection: f64) -> Self {
         Self { values: std::array::from_fn(|i| value(Quantity::ALL[i]).unwrap_or(f64::NAN)), deflection }
     }
 
-    /// Mean transmission error without what micro-geometry and misalignment make of it unloaded, um.
+    /// Mean transmission error minus the unloaded transmission error of micro-geometry and misalignment, um.
     pub fn deflection(&self) -> f64 {
         self.deflection
     }
@@ -68,7 +68,7 @@ impl Sample {
     /// cycle.
     ///
     /// # Errors
-    /// [`StudyError`] when the history is not what the scene asked for.
+    /// [`StudyError`] if the history does not match the scene.
     pub fn of(scene: &Scene, history: &StaticHistory, stride: usize) -> Result<Self, StudyError> {
         let positions = history.positions.iter().step_by(stride).cloned().collect();
         let headline = static_headline(scene, &StaticHistory { positions, ..StaticHistory::default() })?;
@@ -78,12 +78,12 @@ impl Sample {
         Ok(Self { values, deflection: all.sum::<f64>() / history.positions.len().div_ceil(stride) as f64 })
     }
 
-    /// The value of a quantity; `None` where the run does not have it.
+    /// The value of a quantity; `None` if the run does not contain it.
     pub fn get(&self, quantity: Quantity) -> Option<f64> {
         self.values.get(quantity as usize).copied().filter(|v| v.is_finite())
     }
 
-    /// What errors of a quantity are measured against; `None` where the run does not have it.
+    /// The value to which errors of a quantity are relative; `None` if the run does not contain it.
     pub fn scale(&self, quantity: Quantity) -> Option<f64> {
         let own = self.get(quantity)?;
         Some(if goes_with_deflection(quantity) { self.deflection } else { own.abs() })

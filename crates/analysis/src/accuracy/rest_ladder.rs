@@ -1,4 +1,4 @@
-//! The ladder of a pair at rest: meshes, slices, positions.
+//! The ladder of a static pair: meshes, slices, positions.
 
 use geometry::GearPair;
 use scene::{Model, Quantity, Scene, Tolerance};
@@ -35,7 +35,7 @@ pub(super) struct RestLadder<'a> {
 }
 
 impl<'a> RestLadder<'a> {
-    /// Ladder of a scene that asks for an accuracy.
+    /// Ladder of a scene with `[accuracy]`.
     pub fn new(scene: &'a Scene, cache: &'a dyn GearCache, sink: &'a mut dyn StaticSink) -> Self {
         Self { scene, kept: GearMemo::new(cache), companions: Companions::default(), sink, failed: false }
     }

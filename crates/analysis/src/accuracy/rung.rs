@@ -1,13 +1,13 @@
-//! Meshes of the built-in mesher that are refined alike in all five directions.
+//! Meshes of the built-in mesher that are refined uniformly in all five directions.
 
 use mesh::GroupNames;
 use scene::{MesherScene, Scene};
 use serde::Serialize;
 
-/// A mesh with so many elements along the active profile and as fine in every other direction.
+/// A mesh with a given number of elements along the active profile and corresponding fineness in every other direction.
 ///
-/// Errors of the discretisation fall as one power of the element size only where all directions are refined alike:
-/// refinement along the profile alone converges to a wrong answer (theory, section 15).
+/// Discretisation errors fall with one power of the element size only if all directions are refined uniformly.
+/// Refinement along the profile alone converges to a wrong result (theory, section 15).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Rung {
     /// Elements along the active profile.
@@ -21,7 +21,7 @@ const MORE_IN_FILLET: u32 = 1;
 const MORE_IN_RIM: u32 = 2;
 
 impl Rung {
-    /// Rungs of the ladder, coarse to fine.
+    /// Rungs of the ladder, from coarse to fine.
     pub const ALL: [Self; 7] = [
         Self::along_profile(2),
         Self::along_profile(3),
@@ -36,17 +36,17 @@ impl Rung {
         Self { elements_profile }
     }
 
-    /// The next coarser one of the ladder.
+    /// The next coarser rung of the ladder.
     pub fn coarser(self) -> Option<Self> {
         Self::ALL.iter().rev().find(|r| **r < self).copied()
     }
 
-    /// The next finer one of the ladder.
+    /// The next finer rung of the ladder.
     pub fn finer(self) -> Option<Self> {
         Self::ALL.iter().find(|r| **r > self).copied()
     }
 
-    /// The rung that both gears of a scene stand on.
+    /// The rung of both gears of a scene.
     pub fn of(scene: &Scene) -> Option<Self> {
         let stands = |rung: &Self| {
             let own = rung.mesher(scene);
@@ -58,9 +58,9 @@ impl Rung {
         Self::ALL.into_iter().find(stands)
     }
 
-    /// Numbers of elements of a gear in the scene's pair.
+    /// Element counts for a gear of the scene's pair.
     ///
-    /// Lines of contact run oblique over helical flanks: the more so, the more elements along the face.
+    /// Contact lines cross helical flanks obliquely; the larger the angle, the more elements are needed along the face.
     pub fn mesher(self, scene: &Scene) -> MesherScene {
         let n = self.elements_profile;
         let slope = scene.pinion.helix_angle().tan().abs();
@@ -81,7 +81,7 @@ impl Rung {
         }
     }
 
-    /// The scene with both gears on this mesh; teeth of an open sector stay.
+    /// The scene with both gears on this mesh; the number of teeth of an open sector is kept.
     pub fn scene(self, scene: &Scene) -> Scene {
         let mut own = scene.clone();
         let mesher = self.mesher(scene);

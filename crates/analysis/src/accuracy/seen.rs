@@ -1,4 +1,4 @@
-//! What a run shows of its own errors.
+//! Error indicators of a run.
 
 use geometry::GearPair;
 use scene::{Quantity, Scene};
@@ -6,46 +6,48 @@ use study::Between;
 
 use crate::loaded_pair::LoadedPair;
 
-/// What a run shows of an error, in the unit of its number.
+/// Error indicators that a run shows, in the unit of its value.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Seen {
-    /// What the shape of the curve adds to the number.
+    /// Contribution of the curve's shape to the value.
     pub shift: f64,
-    /// Sizes that the error goes with.
+    /// Magnitudes to which the error is proportional.
     pub sizes: Vec<f64>,
 }
 
 impl Seen {
-    /// What a curve shows between its positions, and the difference from the number of every second of them.
+    /// Possible error of a curve between its positions, and the difference of the value from that of every second
+    /// position.
     pub fn of(between: &Between, halved: Option<f64>) -> Self {
         Self { shift: between.shift, sizes: between.seen.into_iter().chain(halved).collect() }
     }
 }
 
-/// Normal force of a tooth pair that carries the whole load in the plane of action, N: `F = T / (r_b cos beta_b)` of the
-/// driven gear. The largest pair force is this force where a pair carries all, on every mesh and between all positions. It
-/// is larger only where tips touch off the plane of action.
+/// Normal force of a tooth pair that carries the whole load in the plane of action, N: `F = T / (r_b cos beta_b)` of
+/// the driven gear. If one pair carries the whole load, the largest pair force is this force, on every mesh and at all
+/// positions. It is larger only if tips touch off the plane of action.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WholeForce(f64);
 
 impl WholeForce {
-    /// The whole force of a scene and its pair.
+    /// The whole force for a scene and its pair.
     pub fn of(scene: &Scene, pair: &GearPair) -> Self {
         let loaded = LoadedPair::of(scene, pair);
         Self(loaded.torque / (loaded.driven_base_radius() * pair.base_helix_angle().cos()))
     }
 
-    /// Share that is left for other pairs beside one with this force (N); negative beside a larger force.
+    /// Share that remains for other pairs if one has this force (N); negative if the force is larger.
     pub fn left(self, force: f64) -> f64 {
         1.0 - force / self.0
     }
 
-    /// What meshes and slices show: the number itself; for the largest pair force its distance from the whole force.
+    /// Indicator for meshes and slices: the value itself; for the largest pair force its difference from the whole
+    /// force.
     pub fn number(self, quantity: Quantity, value: f64) -> Seen {
         Seen { shift: 0.0, sizes: vec![if quantity == Quantity::MaxPairForce { self.distance(value) } else { value }] }
     }
 
-    /// What a curve shows between its positions: a pair force rises no farther than to the whole force.
+    /// Indicator for positions: the possible error of a curve between them. A pair force cannot exceed the whole force.
     pub fn between(self, quantity: Quantity, value: f64, between: Between) -> Between {
         if quantity != Quantity::MaxPairForce {
             return between;

@@ -1,4 +1,4 @@
-//! One cycle of a scene and samples of it, and more of the same on the gears that it has reduced.
+//! A solved cycle of a scene, samples of it, and further solutions on its reduced gears.
 
 use ltca::{StaticHistory, StaticModel};
 use scene::Scene;
@@ -6,7 +6,7 @@ use scene::Scene;
 use super::{Curves, Sample};
 use crate::{AnalysisError, GearCache, NoObserver, NoSink, meshes, options, solver_error, static_cycle::CycleInputs};
 
-/// A solved cycle with the gears that it was solved on: positions alone, without what a user should hear of them.
+/// A solved cycle with the gears on which it was solved: only positions, without remarks.
 #[derive(Debug)]
 pub struct SolvedCycle {
     scene: Scene,
@@ -15,7 +15,7 @@ pub struct SolvedCycle {
 }
 
 impl SolvedCycle {
-    /// Solves a scene as it stands: no number of slices is chosen.
+    /// Solves a scene as given; no number of slices is chosen.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -28,7 +28,7 @@ impl SolvedCycle {
         Ok(Self { scene: scene.clone(), history: solved.history, model: solved.model })
     }
 
-    /// This cycle solved again by the same gears, with other numbers of slices and positions.
+    /// This cycle solved again with the same gears and other numbers of slices and positions.
     ///
     /// # Errors
     /// [`AnalysisError::Solver`].

@@ -1,4 +1,4 @@
-//! A mesh of the chart through CalculiX.
+//! A mesh of the chart solved by CalculiX.
 
 use ale::ToothWindow;
 use geometry::{GearPair, Side};

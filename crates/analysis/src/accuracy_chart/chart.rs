@@ -1,4 +1,4 @@
-//! All points of a chart, with the one reference that they are judged by.
+//! All points of a chart, with the common reference for their errors.
 
 use std::path::Path;
 
@@ -20,78 +20,78 @@ use crate::{
     run_phase,
 };
 
-/// How much is run.
+/// Extent of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartOptions {
-    /// Mesh densities, coarse to fine; the last one serves the reference.
+    /// Mesh densities, from coarse to fine; the last one is for the reference.
     pub densities: Vec<Density>,
-    /// Positions, at most, of ways that take minutes for each.
+    /// Largest number of positions for methods that take minutes per position.
     pub part: u32,
-    /// A point that would take longer than this, by what the one before it took, is left out, s.
+    /// Time limit of a point, s. A point is skipped if it would take longer, as predicted from the preceding one.
     pub limit_s: f64,
-    /// Whether the models are run in motion too.
+    /// Whether the models in motion are run as well.
     pub motion: bool,
 }
 
 impl ChartOptions {
-    /// Four densities.
+    /// Options with four densities.
     pub fn whole(limit_s: f64) -> Self {
         Self { densities: Density::ALL.to_vec(), part: 2, limit_s, motion: false }
     }
 
-    /// A look in less than a minute.
+    /// Options for a chart in less than a minute.
     pub fn quick(limit_s: f64) -> Self {
         Self { densities: Density::QUICK.to_vec(), part: 1, limit_s, motion: false }
     }
 }
 
-/// What became of a point.
+/// Outcome of a point.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
-    /// It was run.
+    /// The point was run.
     Measured {
-        /// What it took.
+        /// Its cost.
         work: Work,
-        /// What it gave.
+        /// Its result.
         answer: Answer,
-        /// How far that is off the reference.
+        /// Error of the result compared with the reference.
         error: AnswerError,
-        /// What it says of that error itself, or why it says nothing.
+        /// Its own error bounds, or the reason why there are none.
         bounds: Result<Box<OwnBounds>, String>,
-        /// What a reader should know.
+        /// Note for the reader.
         note: String,
     },
-    /// It was not, and why.
+    /// The point was skipped, with the reason.
     Skipped(String),
 }
 
 /// One row of the chart's table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointRow {
-    /// Name of its way.
+    /// Name of the method.
     pub way: &'static str,
     /// Mesh of the point; `None` without one.
     pub density: Option<Density>,
-    /// What became of it.
+    /// Outcome of the point.
     pub outcome: Outcome,
 }
 
-/// Every point of a scene's chart.
+/// All points of a scene's chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkPrecision {
     /// Mesh of the reference.
     pub reference_density: Density,
-    /// What the reference took.
+    /// Cost of the reference.
     pub reference_work: Work,
-    /// What it gave.
+    /// Result of the reference.
     pub reference: Answer,
-    /// What it says of its own error.
+    /// Error bounds of the reference.
     pub reference_bounds: Result<Box<OwnBounds>, String>,
-    /// Why it was not taken on a finer mesh; empty when it is on the finest.
+    /// Reason why the reference is not on a finer mesh; empty if it is on the finest.
     pub reference_note: String,
-    /// The points, way by way, coarse to fine.
+    /// The points, method by method, from coarse to fine.
     pub rows: Vec<PointRow>,
-    /// The models in motion; empty where they were not asked for.
+    /// The models in motion; empty if not requested.
     pub motion: Vec<MotionRow>,
 }
 
@@ -108,7 +108,7 @@ fn point_count(options: &ChartOptions) -> usize {
     1 + in_motion + ways().iter().map(|w| densities(w, &options.densities).len()).sum::<usize>()
 }
 
-/// Accuracy against cost of every model of a scene.
+/// Accuracy against cost of all models of a scene.
 #[derive(Clone, Copy)]
 pub struct AccuracyChart<'a> {
     scene: &'a Scene,
@@ -123,28 +123,28 @@ impl std::fmt::Debug for AccuracyChart<'_> {
 }
 
 impl<'a> AccuracyChart<'a> {
-    /// Chart of a scene, without memory readings and CalculiX.
+    /// Chart of a scene, without memory measurements and CalculiX.
     pub fn new(scene: &'a Scene, options: &'a ChartOptions) -> Self {
         Self { scene, options, tools: ChartTools { memory: &NoGauge, scratch: None } }
     }
 
-    /// With peak and free memory of the process: a point that does not fit is left out.
+    /// Measures peak and free memory of the process; a point that does not fit into memory is skipped.
     #[must_use]
     pub fn with_memory(mut self, memory: &'a dyn MemoryGauge) -> Self {
         self.tools.memory = memory;
         self
     }
 
-    /// With a folder for the files of CalculiX, which is run where it is installed.
+    /// Sets a folder for the files of CalculiX, which is run if it is installed.
     #[must_use]
     pub fn with_scratch(mut self, folder: &'a Path) -> Self {
         self.tools.scratch = Some(folder);
         self
     }
 
-    /// Runs every point.
+    /// Runs all points.
     ///
-    /// A point that fails, or would take too much, is a row that says why; only without a reference there is no chart.
+    /// A point that fails or would cost too much becomes a row with the reason. Only a missing reference is an error.
     ///
     /// # Errors
     /// [`AnalysisError::Refused`].

@@ -1,5 +1,4 @@
-//! Leaves out a point that would take too long or too much memory, foretold from the point before it in the same
-//! series.
+//! Skips a point that would take too long or too much memory, as predicted from the preceding point of the same series.
 
 use study::Work;
 

@@ -1,4 +1,4 @@
-//! A cheaper model at the positions of the chart: what it says of the pair at rest under the load.
+//! A cheaper model at the positions of the chart: its result for the static pair under load.
 
 use std::time::Instant;
 

@@ -1,5 +1,4 @@
-//! The scene of the chart as one of a cheaper model: the same pair, torque and speed, with what that model wants
-//! beside.
+//! The scene of the chart for a cheaper model: the same pair, torque and speed, with the additional keys of that model.
 
 use scene::{
     AccuracyScene, Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Kind, Law, Lumped8Scene,

@@ -1,4 +1,4 @@
-//! Runs one point and says what it took.
+//! Runs one point and measures its cost.
 
 use ltca::StaticModel;
 use scene::{Analysis, Scene};

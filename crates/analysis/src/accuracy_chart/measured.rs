@@ -1,4 +1,4 @@
-//! What a point of the chart may use, what it gave, and the meshes behind it.
+//! Resources of a chart point, its result, and its meshes.
 
 use std::path::Path;
 

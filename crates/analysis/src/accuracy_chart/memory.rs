@@ -1,18 +1,18 @@
-//! Memory of the process, as the caller reads it.
+//! Memory of the process, measured by the caller.
 
-/// Tells peak and free memory of the process.
+/// Measures peak and free memory of the process.
 pub trait MemoryGauge: Sync {
-    /// Forgets the peak so far.
+    /// Resets the peak.
     fn reset_peak(&self);
 
-    /// Largest resident set since, MB; `None` where the system does not tell.
+    /// Largest resident set since the reset, MB; `None` if the operating system does not report it.
     fn peak_mb(&self) -> Option<f64>;
 
-    /// Memory that is free, MB; `None` where the system does not tell.
+    /// Free memory, MB; `None` if the operating system does not report it.
     fn available_mb(&self) -> Option<f64>;
 }
 
-/// Tells nothing.
+/// Gauge without measurements.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoGauge;
 

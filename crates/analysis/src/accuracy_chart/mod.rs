@@ -1,4 +1,4 @@
-//! Accuracy against cost of every model of a scene: which points there are, and how each is measured.
+//! Accuracy against cost of all models of a scene: the points, and their measurement.
 //!
 //! | module | what it does |
 //! |---|---|

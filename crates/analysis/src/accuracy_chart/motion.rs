@@ -1,5 +1,5 @@
-//! The scene's models in motion at its torque and speed: what each says of the dynamic transmission error, against
-//! the reduced one, and what a mesh cycle costs.
+//! The models in motion of a scene at its torque and speed: the dynamic transmission error of each compared with the
+//! reduced model, and the cost of a mesh cycle.
 
 use std::time::Instant;
 
@@ -16,13 +16,13 @@ use crate::{
 const CYCLES: u32 = 4;
 /// Models that are run.
 pub(super) const WAYS: usize = 6;
-/// Name of what the others are compared with.
+/// Name of the model with which the others are compared.
 pub const REDUCED: &str = "reduced";
 
 /// A model in motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionRow {
-    /// Name of the way.
+    /// Name of the method.
     pub way: &'static str,
     /// Result, or the reason why there is none.
     pub outcome: Result<MotionPoint, String>,
@@ -31,11 +31,11 @@ pub struct MotionRow {
 /// Result and cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionPoint {
-    /// Rigid coordinates that are integrated.
+    /// Number of rigid coordinates that are integrated.
     pub coordinates: usize,
     /// Time before the first step, s.
     pub offline_s: f64,
-    /// Time of a mesh cycle, s.
+    /// Time per mesh cycle, s.
     pub cycle_s: f64,
     /// Mean of the dynamic transmission error, um.
     pub mean_um: f64,

@@ -1,19 +1,19 @@
-//! What a point of the chart says of its own error, beside what that is.
+//! Own error bounds of a chart point, compared with its actual error.
 
 use scene::Quantity;
 use study::Answer;
 
 use crate::accuracy::{Accuracy, Bound};
 
-/// How far the error of a number may lie by its own bounds, and whether it does.
+/// Range of the error of a value according to its own bounds, and whether the actual error is within it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OwnBound {
-    /// The error is at least this, relative to the reference as all errors of a chart are: the exact value lies above
-    /// by as much at the most.
+    /// Lower limit of the error, relative to the reference like all errors of a chart: the exact value is larger by at
+    /// most this.
     pub least: f64,
-    /// The error is at most this, likewise.
+    /// Upper limit of the error, relative to the reference.
     pub most: f64,
-    /// Whether the reference lies inside.
+    /// Whether the reference is within the range.
     pub holds: bool,
 }
 
@@ -32,7 +32,7 @@ impl OwnBound {
 pub struct OwnBounds {
     /// Bound of the mean STE.
     pub mean_ste: OwnBound,
-    /// Bound of the peak to peak of the STE; `None` where a part of the cycle was run.
+    /// Bound of the peak to peak of the STE; `None` if only a part of the cycle was run.
     pub peak_to_peak_ste: Option<OwnBound>,
 }
 

@@ -1,4 +1,4 @@
-//! Wall time of each phase of a point, and the largest resident set.
+//! Wall-clock time of each phase of a point, and the largest resident set.
 
 use std::{sync::Arc, time::Instant};
 
@@ -18,12 +18,12 @@ impl<'a> PhaseTimes<'a> {
         Self { memory, open: Vec::new(), done: Vec::new(), highest: None }
     }
 
-    /// Wall time of the phases that `which` names, s.
+    /// Wall-clock time of the phases selected by `which`, s.
     pub fn wall_s(&self, which: impl Fn(&str) -> bool) -> f64 {
         self.done.iter().filter(|(name, _)| which(name)).map(|(_, seconds)| seconds).sum()
     }
 
-    /// Largest resident set in any phase, MB; `None` where nobody tells.
+    /// Largest resident set in any phase, MB; `None` if it is not measured.
     pub fn peak_mb(&self) -> Option<f64> {
         self.highest
     }

@@ -1,4 +1,4 @@
-//! The points of the chart: ways to compute a cycle times mesh densities. Each point is a scene of its own.
+//! The points of the chart: methods to compute a cycle times mesh densities. Each point is a separate scene.
 
 use scene::{Gap, MesherScene, Method, Model, Reduction, Scene};
 
@@ -7,14 +7,14 @@ use super::lumped_scene;
 /// A density of the built-in mesher, quadratic elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Density {
-    /// Elements along the active profile; the other counts follow.
+    /// Elements along the active profile; the other counts follow from it.
     pub profile: u32,
 }
 
 impl Density {
-    /// The four of a whole chart; the last one serves the reference.
+    /// The four densities of a full chart; the last one is for the reference.
     pub const ALL: [Self; 4] = [Self { profile: 2 }, Self { profile: 4 }, Self { profile: 8 }, Self { profile: 12 }];
-    /// Those of a quick look.
+    /// The densities of a quick chart.
     pub const QUICK: [Self; 3] = [Self { profile: 2 }, Self { profile: 3 }, Self { profile: 4 }];
 
     /// Counts for the transmission error: about those of the default, but half as many in fillet and rim;
@@ -34,56 +34,56 @@ impl Density {
     }
 }
 
-/// Who computes it.
+/// Program that computes a point.
 #[derive(Debug, Clone, Copy)]
 pub enum Engine {
-    /// This program, the scene edited.
+    /// This program, with the scene edited.
     Own(fn(&mut Scene)),
-    /// A cheaper model, the scene edited: the pair at rest under the load, phase by phase.
+    /// A cheaper model, with the scene edited: the static pair under load, phase by phase.
     Lumped(fn(&mut Scene)),
     /// CalculiX on the same mesh.
     Calculix,
 }
 
-/// How much of a cycle is run.
+/// Part of a cycle that is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Share {
     /// Every position.
     Whole,
-    /// A position or two: minutes each.
+    /// One or two positions, which take minutes each.
     Part,
 }
 
-/// On which densities.
+/// Mesh densities of a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Range {
-    /// There is no mesh.
+    /// The method has no mesh.
     None,
-    /// All of them.
+    /// All densities.
     All,
-    /// All but the one of the reference, which is computed this very way.
+    /// All densities except that of the reference, which is computed by this method itself.
     BelowReference,
-    /// The coarsest ones, so many.
+    /// This number of the coarsest densities.
     First(usize),
 }
 
-/// One way to compute a cycle: a series of the chart.
+/// A method to compute a cycle: one series of the chart.
 #[derive(Debug, Clone, Copy)]
 pub struct Way {
     /// Name in tables and legend.
     pub name: &'static str,
-    /// Who.
+    /// Program that computes it.
     pub engine: Engine,
-    /// Where.
+    /// Mesh densities.
     pub range: Range,
-    /// How much.
+    /// Part of the cycle.
     pub share: Share,
 }
 
 /// Penalty of the penalty points and of CalculiX's contact, MPa/mm.
 pub(super) const PENALTY: f64 = 1e7;
 
-/// The ways, cheapest first. One more is one more line.
+/// The methods, cheapest first. A new method is one more entry.
 pub fn ways() -> Vec<Way> {
     let own = |name, range, edit| Way { name, engine: Engine::Own(edit), range, share: Share::Whole };
     let lumped = |name, range, edit| Way { name, engine: Engine::Lumped(edit), range, share: Share::Whole };
@@ -105,9 +105,9 @@ pub fn ways() -> Vec<Way> {
 
 /// Name of the way that is reduced by sectors where it can be, with slices.
 const SLICE: &str = "slice";
-/// Name of a cheaper model that the reduced one feeds.
+/// Name of a cheaper model whose mesh cycle comes from the reduced model.
 pub const FED: &str = "lumped12, fed by slice";
-/// Name of the way that keeps every degree of freedom: others are compared with it.
+/// Name of the method with all degrees of freedom, with which others are compared.
 pub const FULL: &str = "full";
 /// Name of CalculiX's points.
 pub const CALCULIX: &str = "CalculiX";
@@ -179,20 +179,21 @@ pub(super) fn reference(scene: &mut Scene) {
 /// One point of the chart.
 #[derive(Debug, Clone)]
 pub struct Point {
-    /// Way of the point.
+    /// Method of the point.
     pub way: Way,
     /// Mesh of the point; `None` without one.
     pub density: Option<Density>,
-    /// Positions of the cycle that are run; they divide [`Point::positions_asked`].
+    /// Number of positions of the cycle that are run; a divisor of [`Point::positions_asked`].
     pub positions: u32,
-    /// Positions of the cycle.
+    /// Number of positions of the cycle.
     pub positions_asked: u32,
-    /// The whole scene of it.
+    /// The complete scene of the point.
     pub scene: Scene,
 }
 
 impl Point {
-    /// The scene computed in one way on one mesh; `part` positions at most where the way takes a part of the cycle.
+    /// The scene computed by one method on one mesh, with at most `part` positions if the method computes a part of the
+    /// cycle.
     pub fn new(scene: &Scene, way: Way, density: Option<Density>, part: u32) -> Self {
         let mut own = meshed(scene, density);
         match way.engine {

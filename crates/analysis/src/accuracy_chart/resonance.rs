@@ -1,5 +1,5 @@
-//! Models in motion over a range of speeds: how far the dynamic transmission error of each is off that of elastic gears
-//! with normal modes, and what the curve costs.
+//! Models in motion over a range of speeds: the error of each dynamic transmission error compared with elastic gears
+//! with normal modes, and the cost of the curve.
 
 use std::time::Instant;
 
@@ -39,25 +39,25 @@ const SWEEP: &str = "sweep";
 /// A steady motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedPoint {
-    /// Which way the speeds are gone through.
+    /// Direction of the sweep.
     pub way: SweepWay,
     /// Speed of the driver, 1/min.
     pub speed_rpm: f64,
-    /// Largest minus smallest dynamic transmission error, um; `None` without a motion.
+    /// Largest minus smallest dynamic transmission error, um; `None` if there is no motion.
     pub peak_to_peak_um: Option<f64>,
 }
 
-/// What a model gave over the speeds, and what it took.
+/// Result of a model over the speeds, and its cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResonanceCurve {
     /// Time before the first motion, s.
     pub offline_s: f64,
     /// Time of all motions, s.
     pub sweep_s: f64,
-    /// Way by way, speed by speed.
+    /// Direction by direction, speed by speed.
     pub speeds: Vec<SpeedPoint>,
-    /// Root mean square of its peaks to peaks' differences to the reference over that of the reference; `None` where no
-    /// speed has both.
+    /// Root mean square of the differences of its peaks to peaks from the reference, divided by that of the reference;
+    /// `None` if no speed has both.
     pub error: Option<f64>,
 }
 
@@ -68,12 +68,12 @@ impl ResonanceCurve {
         known.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Motions that there are none of.
+    /// Number of missing motions.
     pub fn missing(&self) -> usize {
         self.speeds.iter().filter(|p| p.peak_to_peak_um.is_none()).count()
     }
 
-    /// Time of all, s.
+    /// Total time, s.
     pub fn whole_s(&self) -> f64 {
         self.offline_s + self.sweep_s
     }
@@ -89,12 +89,12 @@ impl ResonanceCurve {
     }
 }
 
-/// A model with one length of its steps.
+/// A model with one step length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResonancePoint {
     /// Name of the model.
     pub model: &'static str,
-    /// Steps of a mesh cycle; shorter where the scene's `steps_per_resonance`, in proportion, asks for it.
+    /// Steps per mesh cycle; more if the scene's `steps_per_resonance`, in proportion, requires it.
     pub steps: u32,
     /// Result, or the reason why there is none.
     pub outcome: Result<ResonanceCurve, String>,
@@ -103,24 +103,24 @@ pub struct ResonancePoint {
 /// The models of a scene over its speeds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResonancePrecision {
-    /// Model by model, long steps first.
+    /// Model by model, longest steps first.
     pub points: Vec<ResonancePoint>,
     /// Reference: normal modes and shorter steps.
     pub reference: ResonanceCurve,
-    /// Steps of a mesh cycle of the reference.
+    /// Steps per mesh cycle of the reference.
     pub reference_steps: u32,
-    /// The speeds.
+    /// The speeds of the sweep.
     pub sweep: SweepScene,
 }
 
-/// Runs every model over the speeds of a scene's `[motion.sweep]`, with half, once and twice the scene's
-/// number of steps. With `quick` it uses the scene's number only.
+/// Runs all models over the speeds of a scene's `[motion.sweep]`, with half, once and twice the scene's number of
+/// steps. With `quick` only the scene's number is used.
 ///
-/// The driver turns at a constant speed, axes are held or as stiff as makes no difference. A model that fails is a point
-/// that says why.
+/// The driver rotates at constant speed; axes are held, or so stiff that it makes no difference. A model that fails is
+/// a point with the reason.
 ///
 /// # Errors
-/// [`AnalysisError`] of a scene without such a table, or when the reference does not come out.
+/// [`AnalysisError`] for a scene without this table, or if the reference fails.
 pub fn resonance_precision(
     scene: &Scene,
     observer: &mut dyn Observer,

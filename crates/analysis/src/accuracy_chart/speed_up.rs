@@ -1,4 +1,4 @@
-//! One scene at rest with every degree of freedom and reduced, on the same meshes: what the reduction saves.
+//! One static scene with all degrees of freedom and reduced, on the same meshes: the savings by the reduction.
 
 use scene::{Flanks, Kind, Scene};
 use serde::Serialize;
@@ -40,11 +40,11 @@ described::described! {
     }
 }
 
-/// Runs `positions` positions (at the most; a divisor of those of the cycle) of the scene with every degree of
-/// freedom, and its whole quasi-static cycle reduced; both from cold, without the cache, one after the other.
+/// Runs `positions` positions (at most; a divisor of those of the cycle) of the scene with all degrees of freedom, and
+/// its whole quasi-static cycle reduced. Both start without cache, one after the other.
 ///
 /// # Errors
-/// Those of the runs, and where the two cannot be compared.
+/// The errors of the runs, and an error if the two cannot be compared.
 pub fn speed_up(scene: &Scene, positions: u32, memory: &dyn MemoryGauge) -> Result<SpeedUp, AnalysisError> {
     let still = at_rest(scene);
     let run = |way| -> Result<Measured, AnalysisError> {

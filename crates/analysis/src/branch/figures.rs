@@ -1,4 +1,4 @@
-//! The few numbers of a branch, and what a user should hear of it.
+//! Headline values of a branch, and remarks for the user.
 
 use answer::Remark;
 use periodic::{Branch, BranchPlan};

@@ -1,4 +1,4 @@
-//! Branches of periodic motions, of pairs and of gearboxes: what is asked, what must hold, what is read off.
+//! Branches of periodic motions of pairs and gearboxes: plan, checks, results.
 
 mod figures;
 mod plan;

@@ -1,4 +1,4 @@
-//! What is asked of a branch, and what must hold of it.
+//! Plan of a branch, and its checks.
 
 use periodic::{BalanceOptions, Branch, BranchPlan};
 
@@ -25,7 +25,7 @@ pub(crate) struct BranchWords {
 }
 
 impl BranchWords {
-    /// The plan that they ask for.
+    /// The plan of the requested branch.
     pub fn plan(&self) -> BranchPlan {
         let balance = BalanceOptions {
             harmonics: self.harmonics[0] as usize,

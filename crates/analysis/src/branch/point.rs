@@ -1,4 +1,4 @@
-//! What is read off a periodic motion of a branch.
+//! Results of a periodic motion of a branch.
 
 use std::f64::consts::TAU;
 
@@ -17,11 +17,11 @@ const ORDERS: usize = 5;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossName {
-    /// The branch turns back, or another one crosses it.
+    /// The branch turns back, or another branch crosses it.
     Fold,
-    /// A motion of twice the period begins.
+    /// A motion of twice the period branches off.
     PeriodDoubling,
-    /// A second frequency begins: the motion is no longer periodic.
+    /// A second frequency appears: the motion is no longer periodic.
     Torus,
 }
 
@@ -122,19 +122,19 @@ impl BranchTurn {
     }
 }
 
-/// A motion of the branch, integrated in time from there on; units are in the names.
+/// A motion of the branch, continued by integration in time; units are in the names.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TimePoint {
     /// Value of the key.
     pub value: f64,
-    /// Peak to peak of the mesh cycles that are looked at.
+    /// Peak to peak of the evaluated mesh cycles.
     pub peak_to_peak_dte_um: f64,
     /// Peak to peak of the branch.
     pub branch_peak_to_peak_dte_um: f64,
 }
 
 impl TimePoint {
-    /// Difference over that of the branch.
+    /// Difference relative to the value of the branch.
     pub fn difference(&self) -> f64 {
         (self.peak_to_peak_dte_um / self.branch_peak_to_peak_dte_um - 1.0).abs()
     }

@@ -1,4 +1,4 @@
-//! A gearbox at rest as its motion begins with it: plan, mean stiffness, damping and elements of its meshes.
+//! A static gearbox as the start of its motion: plan, mean stiffness, damping and elements of its meshes.
 
 use std::{f64::consts::TAU, sync::Arc};
 
@@ -48,7 +48,7 @@ pub(super) struct AtRest<'a> {
 }
 
 impl AtRest<'_> {
-    /// How its motion is integrated.
+    /// Plan of the integration of its motion.
     pub fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
         MotionPlan {
             scheme: asked.scheme,
@@ -62,13 +62,13 @@ impl AtRest<'_> {
         }
     }
 
-    /// Length of a step, s; of a ramp the longest, where it is slowest.
+    /// Length of a step, s; for a ramp the longest step, at the lowest speed.
     pub fn step(&self, asked: &GearboxMotion) -> f64 {
         let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
         1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle))
     }
 
-    /// Given speed of the input: constant, or a ramp over the length that is given, else over all cycles.
+    /// Given speed of the input: constant, or a ramp over its given duration, otherwise over all cycles.
     pub fn nominal(&self, asked: &GearboxMotion) -> Speed {
         let from = asked.speed_rpm * TAU / 60.0;
         let Some(to_rpm) = asked.to_speed_rpm else { return Speed::Constant(from) };
@@ -79,7 +79,7 @@ impl AtRest<'_> {
         Speed::Ramp { from, to, start: 0.0, duration }
     }
 
-    /// Torque of all loads at the input by the numbers of teeth, N mm.
+    /// Torque of all loads, referred to the input by the numbers of teeth, N mm.
     pub fn load_at_input(&self) -> f64 {
         let shaft = |disc: usize| self.structure.discs[disc].shaft;
         self.operation.torques.iter().map(|t| t.torque * self.train.ratios()[shaft(t.disc)]).sum()
@@ -105,26 +105,27 @@ impl AtRest<'_> {
         ContactSpring::under(&mut exact, &about, force, PHASES).map_err(named)
     }
 
-    /// Mean torque of a mesh on its driven gear, N mm without sign.
+    /// Mean torque of a mesh on its driven gear, N mm, without sign.
     pub fn torque(&self, mesh: usize) -> f64 {
         let driven = self.reduced[mesh].options.driven();
         let all = self.positions.iter().map(|p| p.meshes[mesh].moment[driven][2]);
         (all.sum::<f64>() / self.positions.len().max(1) as f64).abs()
     }
 
-    /// A mesh through its own cycle at rest, under its mean torque and with its axes where they stand on average.
+    /// A mesh through its own static cycle, under its mean torque and with its axes in their mean positions.
     pub fn cycle(&self, mesh: usize) -> Result<QuasiStatic, AnalysisError> {
         let about = self.stands(mesh).iter().sum::<Vector12>() / self.positions.len().max(1) as f64;
         self.reduced[mesh].cycle(&self.meshes[mesh], self.torque(mesh), &about, self.file.positions_per_cycle)
     }
 
-    /// Damping along the normal, N s/mm: of the contact lines, or the ratio of both gears turning against each other.
+    /// Damping along the normal, N s/mm: that of the contact lines, or that of the damping ratio of both gears
+    /// vibrating against each other.
     ///
     /// ```text
     /// c = 2 zeta sqrt(k m_e),   1/m_e = cos^2 b_b (r_b1^2/J_1 + r_b2^2/J_2)
     /// ```
-    /// J of a gear with all that is on its shaft where that is held, and infinite where a held shaft keeps the speed of the
-    /// input.
+    /// J is the inertia of a gear, with all parts on its shaft if that is held; it is infinite if a held shaft keeps
+    /// the speed of the input.
     pub fn damping(&self, mesh: usize, bodies: &[RigidBody], cycle: &QuasiStatic, asked: &GearboxMotion) -> f64 {
         let ratio = match asked.mesh_damping {
             GearboxDamping::Ratio(ratio) => ratio,
@@ -134,7 +135,8 @@ impl AtRest<'_> {
         if mobility.is_finite() { 2.0 * ratio * (self.normal_stiffness(mesh, cycle) / mobility).sqrt() } else { 0.0 }
     }
 
-    /// Both gears of a mesh turning against each other on its mean stiffness, with a damper along the normal (N s/mm).
+    /// Resonance of both gears of a mesh vibrating against each other on its mean stiffness, with a damper along the
+    /// normal (N s/mm).
     ///
     /// ```text
     /// f = sqrt(k / m_e) / (2 pi),   zeta = c / (2 sqrt(k m_e))
@@ -179,10 +181,10 @@ impl AtRest<'_> {
         turns(0) + turns(1)
     }
 
-    /// What the elasticity of the gears of a mesh leaves out, of one that goes through `cycle` at rest.
+    /// Effects of elasticity that are neglected for the gears of a mesh with the static cycle `cycle`.
     ///
     /// # Errors
-    /// [`AnalysisError::Statistics`] for a transmission error that is no number.
+    /// [`AnalysisError::Statistics`] if the transmission error is not a finite number.
     pub fn elasticity(&self, mesh: usize, cycle: &QuasiStatic) -> Result<Elasticity, AnalysisError> {
         let kept = self.meshes[mesh].discs.map(|disc| self.modes.get(disc).cloned().flatten());
         let lowest = self.lowest_hz.get(mesh).copied().unwrap_or([f64::INFINITY; 2]);
@@ -198,7 +200,7 @@ impl AtRest<'_> {
         }
     }
 
-    /// A mesh in motion; of a map its error over the mean approach beside the most with which it is taken.
+    /// A mesh in motion; for a map also its error relative to the mean approach, and the largest permitted error.
     pub fn element(
         &self,
         mesh: usize,
@@ -254,7 +256,7 @@ impl AtRest<'_> {
         self.cycles_per_turn().into_iter().map(|cycles| cycles * speed).fold(0.0, f64::max)
     }
 
-    /// Mesh cycles of each mesh a radian of the input.
+    /// Mesh cycles of each mesh per radian of the input.
     pub fn cycles_per_turn(&self) -> Vec<f64> {
         let (a, b) = (self.train.cycles(0.0), self.train.cycles(1.0));
         a.iter().zip(&b).map(|(a, b)| (b - a).abs()).collect()

@@ -1,4 +1,4 @@
-//! Bearings of a gearbox file as its solver takes them, and what is read off those with rolling elements.
+//! Bearings of a gearbox file in the form that the solver needs, and the results of those with rolling elements.
 
 use crate::remark;
 use gearbox::{
@@ -22,58 +22,60 @@ const HALF: f64 = 0.5;
 /// Speed times pitch diameter above which centrifugal forces of rolling elements count (rule of thumb), mm/min.
 const FAST: f64 = 5e5;
 
-/// A rolling bearing over all positions.
+/// Results of a rolling bearing over all positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingLoad {
-    /// What rolls in it, as stated or estimated.
+    /// Rolling elements, as given or estimated.
     pub elements: RollingElements,
-    /// Rolling elements of all rows.
+    /// Number of rolling elements of all rows.
     pub count: usize,
-    /// Whether they are estimated, from the catalogue's values or from boundary dimensions.
+    /// Whether they are estimated, from catalogue values or from boundary dimensions.
     pub is_estimated: bool,
-    /// Static and dynamic rating, N, C_0 and C; the latter where it is stated or has a designation to be estimated from.
+    /// Static and dynamic rating C_0 and C, N; C if it is given or can be estimated from a designation.
     pub ratings: (f64, Option<f64>),
     /// Whether the dynamic rating is estimated.
     pub is_rating_estimated: bool,
     /// S_0 of ISO 76 at the largest pressure; `None` without load.
     pub static_safety: Option<f64>,
-    /// Mean of its tangents: x, y, z and the turns about x and y, N/mm, N, N mm.
+    /// Mean of its tangents: x, y, z and the rotations about x and y, N/mm, N, N mm.
     pub stiffness: [[f64; 5]; 5],
     /// Largest force of a rolling element, N.
     pub element_force: f64,
     /// Largest Hertz pressure, MPa.
     pub pressure: f64,
-    /// Fewest and most rolling elements that carry.
+    /// Smallest and largest number of loaded rolling elements.
     pub loaded: [usize; 2],
-    /// Speed of its shaft, 1/min, where it is rated.
+    /// Speed of its shaft, 1/min, if it is rated.
     pub speed_rpm: Option<f64>,
-    /// How long it lasts, where its dynamic rating and a speed are known and it is loaded.
+    /// Its life, if its dynamic rating and a speed are known and it is loaded.
     pub life: Option<BearingLife>,
-    /// Life under the spectrum of loads, h, as [`BearingLife::rated_hours`]; `None` where it has no life, or lasts for ever.
+    /// Life under the load spectrum, h, as in [`BearingLife::rated_hours`]; `None` if it has no life, or an infinite
+    /// one.
     pub spectrum_life_h: Option<f64>,
-    /// Power that it loses, W, where speed and viscosity are known.
+    /// Power loss, W, if speed and viscosity are known.
     pub loss_w: Option<f64>,
 }
 
 /// Life of a rolling bearing at 90 % reliability.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BearingLife {
-    /// L_10r, millions of turns of the shaft.
+    /// L_10r, millions of rotations of the shaft.
     pub million_turns: f64,
-    /// P_ref: radial load of the same life, N.
+    /// P_ref: radial load that gives the same life, N.
     pub equivalent_load: f64,
-    /// P_ref over C.
+    /// P_ref divided by C.
     pub over_rating: f64,
     /// Life, h.
     pub hours: f64,
-    /// Whether oil and dirt are to count.
+    /// Whether lubrication and contamination are to be included.
     pub asks_modified: bool,
     /// Modification of the life (a_ISO), if ISO 281 covers the bearing.
     pub modification: Option<LifeModification>,
 }
 
 impl BearingLife {
-    /// The modified life where oil and dirt are to count, else the basic one, h; `None` where ISO 281 has no modified life.
+    /// The modified life if lubrication and contamination are to be included, otherwise the basic life, h; `None` if
+    /// ISO 281 gives no modified life.
     pub fn rated_hours(&self) -> Option<f64> {
         if self.asks_modified { self.modified_hours() } else { Some(self.hours) }
     }
@@ -96,7 +98,8 @@ pub(super) struct BearingTurns {
 }
 
 impl BearingTurns {
-    /// How a bearing turns at a speed of the input, 1/min; `None` where it stands, or carries nothing as those of held shafts.
+    /// Rotation speed of a bearing at a speed of the input, 1/min; `None` if it does not rotate, or carries nothing
+    /// because its shaft is held.
     pub fn of((file, train): (&Gearbox, &Train), bearing: usize, input_speed_rpm: f64) -> Option<Self> {
         let GearboxBearing { shaft, in_shaft, .. } = file.bearings[bearing];
         // Its rings turn against each other.
@@ -128,7 +131,7 @@ impl LifeLimits {
         }
     }
 
-    /// The worse of both in each respect.
+    /// The worse of two limits in each respect.
     pub fn worse(self, other: Self) -> Self {
         Self {
             over_rating: self.over_rating.max(other.over_rating),

@@ -1,4 +1,5 @@
-//! The branch of periodic motions of a gearbox over the speed of its input: followed, read off, held against motions in time.
+//! The branch of periodic motions of a gearbox over the speed of its input: continuation, results, comparison with
+//! motions in time.
 
 use std::ops::ControlFlow;
 
@@ -27,28 +28,28 @@ use crate::{
 /// Difference that modes above twice `highest_frequency_hz` may make to the size of the largest multiplier.
 const MULTIPLIER: f64 = 0.02;
 
-/// The branch of a gearbox over the speed of its input; a point for each mesh of every motion.
+/// The branch of a gearbox over the speed of its input, with a point for each mesh of every motion.
 #[derive(Debug, Clone)]
 pub struct GearboxBranchResult {
-    /// Figures of the branch, values being speeds of the input, 1/min.
+    /// Headline values of the branch; parameter values are speeds of the input, 1/min.
     pub figures: BranchFigures,
-    /// Motions in the order of the branch.
+    /// Motions in the order of the branch, per mesh.
     pub points: Vec<Vec<BranchPoint>>,
-    /// Where it turns, or another branch leaves it.
+    /// Points at which the branch turns or another branch leaves it, per mesh.
     pub turns: Vec<Vec<BranchTurn>>,
-    /// Stable motions integrated in time.
+    /// Stable motions integrated in time, per mesh.
     pub in_time: Vec<Vec<TimePoint>>,
-    /// Cycles of each mesh in a period.
+    /// Number of cycles of each mesh in a period.
     pub mesh_cycles: Vec<u64>,
-    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
+    /// Mean stiffness of each mesh along its normal, N/mm, near its equilibrium.
     pub stiffness: Vec<f64>,
     /// Damping of each mesh along its normal, N s/mm.
     pub damping: Vec<f64>,
-    /// How much of its map each mesh has used at most; 0 for others.
+    /// Largest used share of each mesh's map; 0 for other meshes.
     pub reach: Vec<f64>,
-    /// Coordinates that the meshes see: unknowns of a harmonic.
+    /// Number of coordinates on which the meshes depend: unknowns per harmonic.
     pub seen: usize,
-    /// How well the shafts were reduced.
+    /// Accuracy of the reduction of the shafts.
     pub reduction: ReductionCertificate,
     /// What must hold of the branch.
     pub(super) checks: Checks,

@@ -1,4 +1,4 @@
-//! What must hold of a gearbox that was solved.
+//! Checks of a solved gearbox.
 
 use answer::{Check, Checks};
 use scene::gearbox::Gearbox;
@@ -19,8 +19,8 @@ const PRESSURE: f64 = 0.3;
 const STIFF: &str = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid";
 
 impl GearboxResult {
-    /// Balance of forces, deflections and pressures that linear elasticity holds for; what must hold of its motion and of its
-    /// branch.
+    /// Checks of force equilibrium, and of the range of deflections and pressures in which linear elasticity is valid;
+    /// checks of its motion and of its branch.
     pub fn checks(&self) -> Checks {
         let [left, body] = self.certificate;
         let mut all = vec![Check::new("residual", left, LEFT, STIFF), Check::new("body_balance", body, BALANCE, STIFF)];
@@ -35,10 +35,10 @@ impl GearboxResult {
         of_motion.into_iter().chain(of_branch).fold(Checks::new(all), Checks::and)
     }
 
-    /// Whether every check holds, and the result is as exact as was asked.
+    /// Whether all checks pass and the requested accuracy is met.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] of a result less exact than asked.
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] for a result that is less accurate than requested.
     pub fn verdict(&self, file: &Gearbox) -> Result<(), AnalysisError> {
         let judged = match self.checks().failed() {
             Some(failed) => Err(AnalysisError::Certificate(failed)),

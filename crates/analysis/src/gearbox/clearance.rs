@@ -1,4 +1,4 @@
-//! Parts of a gearbox that have no room beside each other: it is solved all the same, and said.
+//! Parts of a gearbox that overlap in space. The gearbox is solved nevertheless, with a remark.
 
 use crate::remark;
 use answer::Remark;

@@ -1,4 +1,4 @@
-//! The numbers that a gearbox is judged, varied and compared by.
+//! Values by which a gearbox is judged, varied and compared.
 
 use described::Key;
 use gearbox::LoadSharing;
@@ -291,8 +291,8 @@ const NUMBERS: [Number; 46] = [
 ];
 
 impl GearboxResult {
-    /// The headline of `summary.json`; the names bear the units. Numbers of a vibration or a motion are there where the
-    /// file asks for one.
+    /// The headline of `summary.json`; units are in the names. Values of a vibration or a motion are included if the
+    /// file requests one.
     pub fn headline(&self) -> Value {
         let meshes = 0..self.meshes.len();
         let bearings = 0..self.bearings.len();
@@ -362,7 +362,8 @@ impl GearboxResult {
         NUMBERS.iter().filter_map(|n| Some((n.key.name.to_owned(), value(n.of)?))).collect::<Map<_, _>>().into()
     }
 
-    /// Keys of the headline before anything is solved, each with how many numbers it lists; `None`: it is one.
+    /// Keys of the headline before anything is solved, each with the number of values in its list; `None`: a single
+    /// value.
     pub fn headline_keys(file: &Gearbox) -> Vec<(&'static str, Option<usize>)> {
         let rates = Rates::of(file);
         let (vibrates, moves) = (file.vibration.is_some(), file.motion.is_some());
@@ -406,13 +407,13 @@ impl GearboxResult {
         NUMBERS.iter().filter_map(|n| Some((n.key.name, count(n.of)?))).collect()
     }
 
-    /// Keys of all numbers that a headline may have.
+    /// Keys of all values that a headline may contain.
     pub fn number_keys() -> Vec<Key> {
         NUMBERS.iter().map(|n| n.key).collect()
     }
 
-    /// Whether a number of the headline, by its key, is one of the vibration, of the motion, of the branch over the speed, or
-    /// of the load spectrum.
+    /// Whether a value of the headline, given by its key, belongs to the vibration, to the motion, to the branch over
+    /// the speed, or to the load spectrum.
     pub fn asks_for(key: &str) -> [bool; 4] {
         let of = NUMBERS.iter().find(|n| n.key.name == key).map(|n| n.of);
         [

@@ -1,4 +1,4 @@
-//! What gears and machines of a gearbox weigh.
+//! Masses and inertias of gears and machines of a gearbox.
 
 use dynamics::RigidBody;
 use gearbox::{Machine, Operation, Structure};

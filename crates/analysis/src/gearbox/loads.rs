@@ -1,4 +1,4 @@
-//! What the torques of a gearbox press on teeth and bearings, by equilibrium alone: judged before any work.
+//! Loads of teeth and bearings caused by the torques of a gearbox, from equilibrium alone; checked before the solution.
 
 use gearbox::{GearMesh, GearboxError, Operation, Structure, Train, mesh_torques};
 use scene::{
@@ -28,7 +28,8 @@ pub(super) struct Loaded<'a> {
 }
 
 impl Loaded<'_> {
-    /// Refuses torques that bend teeth by their own size, and thrust that no bearing takes; what is unlikely.
+    /// Rejects torques that would deflect teeth by their own size, and thrust that no bearing takes. Returns remarks
+    /// about unlikely values.
     ///
     /// # Errors
     /// [`AnalysisError::Refused`]; [`GearboxError::OneWay`].

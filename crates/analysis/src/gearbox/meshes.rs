@@ -1,4 +1,4 @@
-//! The meshes of a gearbox: pairs as they run, their reduced gears, and the contact of each.
+//! The meshes of a gearbox: pairs as they run, their reduced gears, and their contact.
 
 use crate::remark;
 use answer::Remark;
@@ -100,7 +100,7 @@ pub(super) struct ReducedMesh {
 }
 
 impl ReducedMesh {
-    /// `wheel_turn`: angle between the wheel and the position in which the flanks touch, rad.
+    /// `wheel_turn` is the angle between the wheel and the position in which the flanks touch, rad.
     pub fn new(
         scene: Scene,
         (mesh, wheel_turn): (&GearMesh, f64),
@@ -114,8 +114,8 @@ impl ReducedMesh {
         Ok(Self { scene, options, pair, remarks })
     }
 
-    /// What is held of the bores, where that is about another cross-section than the gear's seat: a shaft would take
-    /// hold of it by a lever that is not there.
+    /// Remark if the held part of a bore is about another cross-section than the gear's seat: the shaft would act on it
+    /// with a lever that does not exist.
     pub fn seats(&self, file: &Gearbox, i: usize) -> Vec<Remark> {
         let width = self.scene.pair.face_width_mm;
         let gears =
@@ -132,7 +132,7 @@ impl ReducedMesh {
         gears.filter_map(one).collect()
     }
 
-    /// What is said of a mesh whose flanks press on both sides at once.
+    /// Remark about a mesh whose flanks are in contact on both sides at once.
     pub fn jammed(&self, i: usize, mesh: &GearMesh, positions: &[GearboxPosition]) -> Option<Remark> {
         let contact = &self.options.contact;
         let lever = mesh.pair.wheel.base_radius().abs() * mesh.pair.base_helix_angle().cos();
@@ -150,7 +150,7 @@ impl ReducedMesh {
         self.options.contact.both_flanks
     }
 
-    /// Its contact with the gears turning and loaded the other way round: on the coast flanks.
+    /// Its contact with rotation and load reversed: on the coast flanks.
     pub fn turned_round(
         &self,
         mesh: &GearMesh,
@@ -162,12 +162,12 @@ impl ReducedMesh {
         Ok(Box::new(ExactMesh::new(mesh.pair.clone(), self.gears(), options)?))
     }
 
-    /// Its contact.
+    /// Contact of the mesh.
     pub fn element(&self, mesh: &GearMesh) -> Result<Box<dyn MeshElement>, GearboxError> {
         Ok(Box::new(self.exact(mesh)?))
     }
 
-    /// Its contact, with the elastic modes of its gears.
+    /// Contact of the mesh, with the elastic modes of its gears.
     pub fn with_modes(
         &self,
         mesh: &GearMesh,
@@ -176,7 +176,8 @@ impl ReducedMesh {
         Ok(Box::new(self.exact(mesh)?.with_modes(modes)?))
     }
 
-    /// Lowest elastic frequency of both gears, bore held and flanks free, Hz; infinite of gears that are not reduced.
+    /// Lowest elastic frequency of both gears, with bore held and flanks free, Hz; infinite for gears that are not
+    /// reduced.
     ///
     /// # Errors
     /// [`AnalysisError::Reduction`].
@@ -189,18 +190,18 @@ impl ReducedMesh {
         Ok([of(0)?, of(1)?])
     }
 
-    /// Its gears.
+    /// Gears of the mesh.
     pub fn gears(&self) -> Arc<[ElasticGear; 2]> {
         Arc::clone(&self.pair.gears)
     }
 
-    /// The same, as itself.
+    /// Contact of the mesh as its concrete type.
     pub fn exact(&self, mesh: &GearMesh) -> Result<ExactMesh, GearboxError> {
         ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.pair.gears), self.options.clone())
     }
 
-    /// The contact as a mesh in motion, with a damper (N s/mm a mm) on its contact lines; the coast flanks among it where
-    /// the gears are reduced for both.
+    /// The contact as a mesh in motion, with a damper (N s/mm per mm) on its contact lines, including the coast flanks
+    /// if the gears are reduced for both.
     pub fn moving(&self, mesh: &GearMesh, damping_per_length: f64) -> Result<MovingExactMesh, GearboxError> {
         let gears = &self.pair.gears;
         let coast = self.has_coast_flanks().then(|| Arc::clone(gears));
@@ -209,8 +210,8 @@ impl ReducedMesh {
         MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &options, damping_per_length)
     }
 
-    /// The mesh alone through its own cycle at rest: `torque` (N mm) on the driven gear, axes displaced by `about` in the
-    /// mesh's own axes.
+    /// The mesh alone through its own static cycle: `torque` (N mm) on the driven gear, axes displaced by `about` in
+    /// the mesh's own axes.
     pub fn cycle(
         &self,
         mesh: &GearMesh,
@@ -238,7 +239,7 @@ impl ReducedMesh {
         Ok(QuasiStatic::of(&history))
     }
 
-    /// The contact by its map: that of the cache, or a new one; remarks are about files of the cache.
+    /// The contact as a map, from the cache or computed; remarks are about files of the cache.
     pub fn map(
         &self,
         mesh: &GearMesh,
@@ -271,18 +272,18 @@ impl ReducedMesh {
         Ok(made)
     }
 
-    /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.
+    /// Mass and inertia of a gear: those of its mesh, unless the scene of the pair gives others.
     pub fn body(&self, gear: usize) -> Result<RigidBody, AnalysisError> {
         let stated = self.scene.gears()[gear].body.clone().unwrap_or_default();
         body(&self.scene, &self.pair.meshes, &stated, gear)
     }
 
-    /// Teeth of its window.
+    /// Number of teeth of its window.
     pub fn window(&self) -> usize {
         self.options.window.unwrap_or_default()
     }
 
-    /// Reduces anew with one more tooth in the window; whether there was one.
+    /// Reduces the gears again with one more tooth in the window; returns whether there was one.
     pub fn widen(&mut self, mesh: &GearMesh, models: &SharedModels<'_>) -> Result<bool, AnalysisError> {
         let teeth = self.options.window_teeth(&mesh.pair) + 1;
         let room = self.pair.meshes.iter().all(|m| {
@@ -298,7 +299,7 @@ impl ReducedMesh {
         Ok(true)
     }
 
-    /// Keeps the gears for later runs; what could not be written.
+    /// Stores the gears for later runs; returns remarks about write errors.
     pub fn save(&self, cache: &dyn GearCache) -> Vec<Remark> {
         self.pair.save(cache)
     }

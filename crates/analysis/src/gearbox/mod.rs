@@ -1,4 +1,4 @@
-//! A gearbox at rest: from its file to where shafts, bearings and gears stand.
+//! A static gearbox: from its file to the equilibrium of shafts, bearings and gears.
 //!
 //! | module | what it does |
 //! |---|---|

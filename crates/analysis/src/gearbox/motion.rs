@@ -1,4 +1,4 @@
-//! A gearbox in motion: from its equilibrium on, row by row.
+//! A gearbox in motion, from its equilibrium on, row by row.
 
 use std::{f64::consts::TAU, sync::Arc};
 

@@ -1,4 +1,4 @@
-//! What must hold of a gearbox in motion, and of its periodic motions over the speed.
+//! Checks of a gearbox in motion, and of its periodic motions over the speed.
 
 use answer::{Check, Checks};
 use gearbox::motion::ReductionCertificate;
@@ -64,7 +64,7 @@ pub(super) fn of_branch(meshes: impl Iterator<Item = Contact>, reduction: &Reduc
 }
 
 impl Judged<'_> {
-    /// Energy, what each mesh is held to, its map or spring, frequencies of the reduced shafts.
+    /// Checks of energy, of each mesh and its map or spring, and of the frequencies of the reduced shafts.
     pub fn checks(&self) -> Checks {
         let open = energy_check(self.moved.energy.open_over_vibration, self.step_keys());
         let energy = Check { bound: ENERGY, ..open };

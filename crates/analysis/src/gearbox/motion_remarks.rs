@@ -1,4 +1,4 @@
-//! What a user should hear of a gearbox in motion: of every mesh what is said of a pair.
+//! Remarks about a gearbox in motion; every mesh gets the remarks of a single pair.
 
 use std::f64::consts::TAU;
 
@@ -31,7 +31,7 @@ pub(super) struct Judged<'a> {
 }
 
 impl Judged<'_> {
-    /// Keys that say how long steps are.
+    /// Keys that set the step length.
     pub fn step_keys(&self) -> StepKeys {
         StepKeys::GEARBOX.by(self.asked.error_tolerance)
     }
@@ -41,7 +41,7 @@ impl Judged<'_> {
         self.asked.mesh == MeshModel::Spring || self.rest.reduced[mesh].has_coast_flanks()
     }
 
-    /// A mesh as checks and remarks see it.
+    /// A mesh in the form that checks and remarks need.
     pub fn mesh(&self, i: usize) -> MeshInMotion<'_> {
         let reached = &self.moved.reached.meshes[i];
         MeshInMotion {
@@ -56,7 +56,7 @@ impl Judged<'_> {
         }
     }
 
-    /// What a user should hear; meshes by their names. `resolved`: how well rows and steps show each mesh.
+    /// Remarks for the user; meshes are given by name. `resolved` tells how well rows and steps resolve each mesh.
     pub fn remarks(&self, resolved: &[Resolved]) -> Vec<Remark> {
         let Self { rest, asked, moved, .. } = *self;
         let mut said: Vec<Remark> =
@@ -100,7 +100,7 @@ impl Judged<'_> {
         said
     }
 
-    /// What has been found of a mesh, to be held against the elastic frequencies of its gears.
+    /// Results of a mesh that are compared with the elastic frequencies of its gears.
     pub fn vibration(&self, i: usize) -> Vibration {
         Vibration {
             mesh_hz: self.mesh_hz()[i],
@@ -128,11 +128,10 @@ impl Judged<'_> {
         StepDemand::of_gearbox((self.rest.file, self.asked), cycles, mesh_hz)
     }
 
-    /// How well rows and steps show a mesh: its own orders beside its own resonance; nothing where the speed is led from
-    /// one to another.
+    /// How well rows and steps resolve a mesh: its own orders and its own resonance. Not for a speed ramp.
     ///
     /// # Errors
-    /// [`TableError::Kept`] where rows cannot be read back.
+    /// [`TableError::Kept`] if rows cannot be read back.
     pub fn resolved(&self, i: usize) -> Result<Resolved, TableError> {
         let Self { asked, moved, .. } = *self;
         // The first row is the start, and the last one may be no whole row behind the one before.

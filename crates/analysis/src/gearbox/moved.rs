@@ -1,4 +1,4 @@
-//! What a motion of a gearbox comes to.
+//! Results of a gearbox motion.
 
 use std::sync::Arc;
 
@@ -18,74 +18,75 @@ use crate::{
     run_up::RunUpTorque,
 };
 
-/// Rows of a gearbox's motion, with the energy so far row for row.
+/// Rows of a gearbox motion, with the energy balance so far row by row.
 pub type GearboxRows = (RowStore<GearboxInstant>, RowStore<EnergyRow>);
 
-/// A gearbox in motion, run.
+/// Results of a gearbox motion that was run.
 #[derive(Debug, Clone)]
 pub struct GearboxMotionResult {
-    /// Rows, the start among them.
+    /// Rows, including the initial state.
     pub rows: Arc<RowStore<GearboxInstant>>,
-    /// Energy so far, row for row.
+    /// Energy balance so far, row by row.
     pub ledger: Arc<RowStore<EnergyRow>>,
-    /// What they reach.
+    /// Extremes of the rows.
     pub reached: ReachedByRows,
-    /// Frequency of each mesh at the speed of the start, Hz.
+    /// Frequency of each mesh at the initial speed, Hz.
     pub mesh_frequencies: Vec<f64>,
-    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
+    /// Mean stiffness of each mesh along its normal, N/mm, near its equilibrium.
     pub stiffness: Vec<f64>,
     /// Damping of each mesh along its normal, N s/mm.
     pub damping: Vec<f64>,
     /// Length of a step, s.
     pub step: f64,
-    /// Steps taken, and those that were divided.
+    /// Number of steps taken, and of those that were divided.
     pub steps: [u64; 2],
-    /// Steps in a cycle of the fastest mesh with rows, on average.
+    /// Average number of steps per cycle of the fastest mesh, over the cycles with rows.
     pub steps_per_cycle: Option<f64>,
-    /// Where the energy went.
+    /// Energy balance.
     pub energy: GearboxEnergy,
-    /// Energy of the ledger that does not close, over the work that goes through the gearbox.
+    /// Residual of the ledger, divided by the energy transmitted by the gearbox.
     pub ledger_residual_over_work: f64,
-    /// What the flanks of each mesh do.
+    /// Events and extremes of the flanks of each mesh.
     pub flanks: Vec<FlankCertificate>,
-    /// How much of its map each mesh has used at most; 0 for others.
+    /// Largest used share of each mesh's map; 0 for other meshes.
     pub reach: Vec<f64>,
-    /// Error of the map of each mesh over its mean approach, beside the most with which it is taken; `None` without a map.
+    /// Error of each mesh's map relative to its mean approach, and the largest permitted error; `None` without a map.
     pub map_errors: Vec<Option<[f64; 2]>>,
-    /// Both gears of each mesh turning against each other on its mean stiffness.
+    /// Resonance of both gears of each mesh vibrating against each other on its mean stiffness.
     pub resonances: Vec<MeshResonance>,
-    /// About how much of itself steps change the peak to peak of each mesh by, %: an estimate; none of a motion that was stopped.
+    /// Estimated change of the peak to peak of each mesh by the steps, %; empty for a motion that was stopped.
     pub step_errors_percent: Vec<Option<f64>>,
-    /// Elastic frequencies of the gears of each mesh beside its harmonics; none of a motion that was stopped.
+    /// Elastic frequencies of the gears of each mesh compared with its harmonics; empty for a motion that was stopped.
     pub elasticity: Vec<ElasticHeadline>,
-    /// Whether the meshes know the pressure of their flanks: those of the exact contact.
+    /// Whether the meshes compute the pressure on their flanks, which those with exact contact do.
     pub knows_pressure: bool,
-    /// Rows, the start among them, that are evenly spaced.
+    /// Number of evenly spaced rows, including the initial state.
     pub even_rows: usize,
-    /// Whether what comes after the rows is what they began with.
+    /// Whether the motion after the rows repeats from their beginning.
     pub comes_back: bool,
-    /// Orders of every mesh, stretch by stretch.
+    /// Orders of every mesh, section by section.
     pub orders: Vec<MotionOrder>,
-    /// Spectra of a motion whose speed is led from one to another: transmission error (um) and normal force (N) of each
-    /// mesh, then the force of each bearing (N).
+    /// Spectra of a motion with a speed ramp: transmission error (um) and normal force (N) of each mesh, then the force
+    /// of each bearing (N).
     pub waterfall: Option<Waterfall>,
-    /// Spectra of a motion whose speed is not led: what a waterfall has, over all rows.
+    /// Spectra of a motion without a speed ramp: the quantities of the waterfall, over all rows.
     pub spectrum: Option<MotionSpectrum>,
-    /// Cycles of the fastest mesh after which all meshes are where they began; `None` where that takes more than 100,000.
+    /// Number of cycles of the fastest mesh after which all meshes are in their initial positions; `None` if that takes
+    /// more than 100,000.
     pub common_period: Option<u64>,
-    /// Elastic modes of the gears, in their order; `None` of gears that are rigid beside their teeth.
+    /// Elastic modes of the gears, in order; `None` for gears that are rigid apart from their teeth.
     pub gear_modes: Vec<Option<GearFrequencies>>,
-    /// How well the shafts were reduced.
+    /// Accuracy of the reduction of the shafts.
     pub reduction: ReductionCertificate,
     /// Cycles of the fastest mesh before the rows.
     pub warm_up_cycles: u64,
-    /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where it need not.
+    /// Final periodicity of the motion, its period in cycles of the fastest mesh; `None` if it need not be periodic.
     pub periodicity: Option<Periodicity>,
-    /// Each mesh over the speed of the input, where that is led from one to another; else none.
+    /// Each mesh over the speed of the input, for a speed ramp; otherwise empty.
     pub run_ups: Vec<RunUp>,
-    /// Natural frequencies over the speed of the input, of a run-up; `None` where those of a vibration are told.
+    /// Natural frequencies over the speed of the input, for a run-up; `None` if those of a vibration are given.
     pub campbell: Option<GearboxCampbell>,
-    /// What the acceleration of a run-up takes at the input: of all that the meshes drive, beside their loads.
+    /// Torque at the input that accelerates all parts driven by the meshes in a run-up, and that of the loads.
     pub run_up: Option<RunUpTorque>,
     /// What must hold of it.
     pub(super) checks: Checks,

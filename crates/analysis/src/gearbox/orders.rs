@@ -1,4 +1,4 @@
-//! Orders of every mesh along a motion of a gearbox, and the waterfall of one whose speed is led from one to another.
+//! Orders of every mesh over a gearbox motion, and the waterfall for a speed ramp.
 
 use std::f64::consts::TAU;
 
@@ -18,16 +18,16 @@ const FEWEST: usize = 8;
 /// Cycles of the slowest mesh that a stretch has at the least.
 const LEAST: f64 = 4.0;
 
-/// Amplitudes at one order of one mesh over a stretch of the motion.
+/// Amplitudes at one order of one mesh over a section of the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionOrder {
-    /// Middle of the stretch, s.
+    /// Time at the middle of the section, s.
     pub time: f64,
     /// Mean speed of the input, rad/s about +z.
     pub speed: f64,
-    /// Mesh whose order it is.
+    /// Mesh to which the order belongs.
     pub mesh: usize,
-    /// Order of its mesh frequency, from 1.
+    /// Order of this mesh's frequency, from 1.
     pub order: usize,
     /// Frequency at the mean speed, Hz.
     pub frequency: f64,
@@ -35,7 +35,7 @@ pub struct MotionOrder {
     pub transmission_errors: Vec<f64>,
     /// Normal force of every mesh, N.
     pub mesh_forces: Vec<f64>,
-    /// Force of every bearing, N: length of the amplitudes along x, y and z.
+    /// Force of every bearing, N: norm of the amplitudes along x, y and z.
     pub bearing_forces: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Shafts, discs and bearings of a gearbox file as its solver takes them.
+//! Shafts, discs and bearings of a gearbox file in the form that the solver needs.
 
 use fem::{
     Material,

@@ -1,4 +1,4 @@
-//! Whether the meshes of a gearbox will hold: each pair's rating under the torque and at the speed that it has here.
+//! Rating of the meshes of a gearbox: that of each pair under its torque and at its speed.
 
 use answer::Remark;
 use gearbox::{GearMesh, GearboxPosition, MeshBears, MeshState, Train};

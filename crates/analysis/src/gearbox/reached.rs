@@ -1,4 +1,4 @@
-//! What the rows of a gearbox's motion reach.
+//! Extremes of the rows of a gearbox motion.
 
 use answer::{RowStore, TableError};
 use gearbox::motion::{GearboxInstant, MeshInstant};
@@ -12,12 +12,12 @@ use crate::{
 /// Round-off of the place of a row, mesh cycles: a row at the end of a cycle belongs to it.
 const EDGE: f64 = 1e-9;
 
-/// Least and largest value.
+/// Smallest and largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// Least.
+    /// Smallest value.
     pub least: f64,
-    /// Largest.
+    /// Largest value.
     pub largest: f64,
 }
 
@@ -26,44 +26,44 @@ impl Range {
         Self { least: running.ends[0], largest: running.ends[1] }
     }
 
-    /// From the one to the other.
+    /// Largest minus smallest value.
     pub fn span(self) -> f64 {
         self.largest - self.least
     }
 }
 
-/// What the rows of a motion reach.
+/// Extremes of the rows of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachedByRows {
     /// Meshes in their order.
     pub meshes: Vec<ReachedByMesh>,
     /// Radial force of each bearing in all rows, N.
     pub radial_force: Vec<Range>,
-    /// Size of the speed of the input in all rows, rad/s.
+    /// Magnitude of the speed of the input in all rows, rad/s.
     pub input_speed: Range,
-    /// Mean speed of the input in the sense in which it starts, rad/s.
+    /// Mean speed of the input in its initial sense, rad/s.
     pub mean_input_speed: f64,
-    /// Cycles of the fastest mesh since the first row, row by row, above 0 in the sense in which it goes on.
+    /// Cycles of the fastest mesh since the first row, row by row, positive in the direction of the motion.
     pub cycles: Vec<f64>,
-    /// Whole cycles of each mesh, one after the other, where the speed is led from one to another; else none.
+    /// Whole cycles of each mesh, one after the other, for a speed ramp; otherwise empty.
     pub cycles_of_meshes: Vec<Vec<RunUpCycle>>,
 }
 
-/// What the rows of a motion reach at a mesh.
+/// Extremes of the rows of a motion at a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReachedByMesh {
-    /// Cycles that it goes through, whichever way.
+    /// Number of its cycles, in either direction.
     pub cycles: f64,
     /// Dynamic transmission error of all rows, um.
     pub dte_um: Range,
-    /// Largest less least transmission error of a mesh cycle (um), mean over its whole cycles; of a speed that is led to
-    /// another the largest of a cycle. Of all rows where the motion has no whole cycle.
+    /// Largest minus smallest transmission error of a mesh cycle (um), averaged over its whole cycles; for a speed ramp
+    /// the largest of any cycle. If the motion has no whole cycle, it is over all rows.
     pub peak_to_peak_dte_um: f64,
     /// Normal force on the driving flanks in all rows, N.
     pub normal_force: Range,
     /// Largest normal force on the coast flanks, N.
     pub coast_normal_force: f64,
-    /// Largest contact pressure, MPa; 0 of a mesh that knows no slices.
+    /// Largest contact pressure, MPa; 0 for a mesh without slices.
     pub max_pressure: f64,
     /// Rows in which flanks on both sides press.
     pub(super) both: BothFlanks,

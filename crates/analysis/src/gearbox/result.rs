@@ -1,4 +1,4 @@
-//! What is read off all positions of a gearbox.
+//! Results of a gearbox over all positions.
 
 use gearbox::mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak};
 use std::f64::consts::TAU;
@@ -31,49 +31,51 @@ use crate::{
 /// Transmission error, in modules, from which on it is said to be large: shafts and bearings that give way are part of it.
 const LARGE: f64 = 0.2;
 
-/// A gearbox at rest, solved.
+/// Results of a static gearbox.
 #[derive(Debug, Clone)]
 pub struct GearboxResult {
-    /// Turns of each shaft a turn of the input in the frame of the carrier, negative against it.
+    /// Rotations of each shaft in the frame of the carrier per rotation of the input; negative if opposite.
     pub ratios: Vec<f64>,
-    /// Turns of each shaft a turn of the input in space.
+    /// Rotations of each shaft in space per rotation of the input.
     pub ratios_in_space: Vec<f64>,
     /// Pairs as they run, in the order of the meshes.
     pub pairs: Vec<GearPair>,
     /// Meshes.
     pub meshes: Vec<MeshResult>,
-    /// Root fillets of each gear, that with the larger tension first; `None` of gears of which no mesh knows root stress.
+    /// Root fillets of each gear, the one with the larger tension first; `None` for gears without root stress in any
+    /// mesh.
     pub root_bending: Vec<Option<[RootBending; 2]>>,
     /// Bearings.
     pub bearings: Vec<BearingLoad>,
     /// Outputs, in the order of the torques.
     pub outputs: Vec<OutputResult>,
-    /// How planets share the load of each mesh that they have in common ([`Gearbox::meshes_of_planets`]).
+    /// Load sharing of the planets in each mesh that they have in common ([`Gearbox::meshes_of_planets`]).
     pub planets: Vec<LoadSharing>,
     /// Mean torque at the input, N mm about +z.
     pub input_torque: f64,
-    /// Worst of all positions: residual, balance of bodies.
+    /// Worst values of all positions: residual, balance of bodies.
     pub certificate: [f64; 2],
     /// All positions.
     pub positions: Vec<GearboxPosition>,
-    /// How it swings about them, where that is asked for.
+    /// Vibration about these positions, if requested.
     pub vibration: Option<VibrationResult>,
-    /// What the user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
-    /// In motion, where the file asks for it.
+    /// Motion, if the file requests it.
     pub motion: Option<GearboxMotionResult>,
-    /// Periodic motions over the speed, where the file asks for them.
+    /// Periodic motions over the speed, if the file requests them.
     pub branch: Option<GearboxBranchResult>,
-    /// How exact its numbers at rest are, where the file asks for an accuracy.
+    /// Accuracy of the static values, if the file requests it.
     pub accuracy: Option<Accuracy>,
-    /// What of it is rated.
+    /// Parts of the rating that are available.
     pub rates: Rates,
-    /// Power of all outputs at the speed of ratings, W; 0 without one.
+    /// Power of all outputs at the speed of the ratings, W; 0 without one.
     pub output_power_w: f64,
 }
 
 impl GearboxResult {
-    /// Output power over input power by the losses of meshes and rolling bearings, P/(P + losses); `None` where a loaded mesh has no loss, and without speed or load. Bearings that are springs lose nothing.
+    /// Output power divided by input power with the losses of meshes and rolling bearings, P/(P + losses). `None` if a
+    /// loaded mesh has no loss, and without speed or load. Bearings that are springs have no loss.
     pub fn efficiency(&self) -> Option<f64> {
         let loss = |mesh: &MeshResult| match &mesh.rating {
             Some(rating) => rating.mesh_loss.map(|loss| loss.mesh_loss_w),
@@ -85,14 +87,14 @@ impl GearboxResult {
     }
 }
 
-/// What of a gearbox is rated.
+/// Parts of a gearbox rating.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rates {
-    /// Some mesh.
+    /// Rating of any mesh.
     pub meshes: bool,
-    /// The life of some bearing.
+    /// Life of any bearing.
     pub lives: bool,
-    /// Lives, or sums of Miner, under a spectrum of loads.
+    /// Lives, or Miner sums, under a load spectrum.
     pub spectrum: bool,
     /// Losses of rolling bearings.
     pub bearing_losses: bool,
@@ -101,7 +103,7 @@ pub struct Rates {
 }
 
 impl Rates {
-    /// By the file.
+    /// Parts requested by the file.
     pub fn of(file: &Gearbox) -> Self {
         let rated = |m: &GearboxMesh| m.scene.rating.is_some();
         let oiled = |m: &GearboxMesh| m.scene.rating.as_ref().is_some_and(|r| r.oil_temperature_c.is_some());
@@ -116,58 +118,58 @@ impl Rates {
     }
 }
 
-/// A mesh over all positions.
+/// Results of a mesh over all positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshResult {
     /// Name.
     pub name: String,
-    /// Slices over the face width.
+    /// Number of slices over the face width.
     pub slices: usize,
     /// Mean of the sum of normal forces, N.
     pub normal_force: f64,
     /// Mean and peak to peak of the transmission error, mm.
     pub transmission_error: [f64; 2],
-    /// The largest one, mm, either way.
+    /// Largest magnitude of the transmission error, mm.
     pub largest_transmission_error: f64,
-    /// Mean misalignment in and across the plane of action, mm over the face width.
+    /// Mean misalignment in the plane of action and perpendicular to it, mm over the face width.
     pub misalignment: [f64; 2],
-    /// K_Hbeta of the solved load distribution.
+    /// K_Hbeta from the solved load distribution.
     pub face_load_factor: Option<f64>,
     /// Largest pressure, MPa.
     pub max_pressure: f64,
-    /// Largest pressures on the driving flanks of gear 1 and gear 2; `None` where its contact has no slices.
+    /// Pressure patterns on the driving flanks of gear 1 and gear 2; `None` if its contact has no slices.
     pub patterns: Option<[GearPattern; 2]>,
-    /// Rating of its pair; `None` where it is not asked for, or where the mesh carries nothing.
+    /// Rating of its pair; `None` if not requested, or if the mesh carries no load.
     pub rating: Option<RatingHeadline>,
-    /// The largest transmission error over the module, and the largest pressure over E*.
+    /// The largest transmission error divided by the module, and the largest pressure divided by E*.
     pub over_limits: [f64; 2],
-    /// Turn by which gear 2 is set where the train closes a ring, rad.
+    /// Rotation by which gear 2 is set if the train has a closed loop, rad.
     pub timing: f64,
-    /// Angles of tooth 0 of gear 1 and gear 2 with the input at its start, rad from +x; they turn as their shafts do.
+    /// Angles of tooth 0 of gear 1 and gear 2 with the input at its start, rad from +x; they rotate with their shafts.
     pub gear_angles: [f64; 2],
 }
 
-/// A bearing over all positions.
+/// Results of a bearing over all positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingLoad {
     /// Name.
     pub name: String,
     /// Mean force on the shaft, N.
     pub force: [f64; 3],
-    /// Mean moment on it, N mm.
+    /// Mean moment on the shaft, N mm.
     pub moment: [f64; 3],
-    /// Largest tilt of the shaft against the seat, rad.
+    /// Largest tilt of the shaft relative to the seat, rad.
     pub tilt: f64,
-    /// What is known of its rolling elements, where it has some.
+    /// Results of its rolling elements, if it has any.
     pub rolling: Option<RollingLoad>,
 }
 
-/// An output over all positions.
+/// Results of an output over all positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputResult {
-    /// Mean of how far it lags, rad.
+    /// Mean lag of the output, rad.
     pub mean: f64,
-    /// Peak to peak of that: the transmission error from input to output, rad.
+    /// Peak to peak of the lag, which is the transmission error from input to output, rad.
     pub peak_to_peak: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How all meshes of a gear stress the root fillets of its teeth, to and fro.
+//! Alternating stress of a gear's root fillets by all its meshes.
 
 use answer::Remark;
 use gearbox::GearboxPosition;
@@ -8,25 +8,25 @@ use scene::gearbox::Gearbox;
 
 use crate::{remark, results::DOUBTFUL_PERCENT};
 
-/// Stress of the root fillets on one side of the teeth of a gear where its tension is largest, over all positions and all
+/// Stress of the root fillets on one side of a gear's teeth at the point of largest tension, over all positions and all
 /// meshes of the gear.
 ///
 /// ```text
 /// R = sigma_min/sigma_max,   range = sigma_max - sigma_min
 /// ```
-/// sigma_max: largest first principal stress of the fillet, at its bending peak; sigma_min: smallest third principal stress at
-/// that place of the fillet. Loads on one flank alone leave R at -0.2 to -0.5, because the tooth beside presses the fillet.
-/// Teeth of idlers and planets are loaded on both flanks in turn: R is near -1.2 (ISO 6336-3, annex B). Each mesh is alone on
-/// the gear's body. Theory (22e).
+/// sigma_max is the largest first principal stress of the fillet, at its bending peak; sigma_min the smallest third
+/// principal stress at the same point. Loads on only one flank give R of -0.2 to -0.5, because the load on the
+/// neighbouring tooth compresses the fillet. Teeth of idlers and planets are loaded on both flanks alternately: R is
+/// near -1.2 (ISO 6336-3, annex B). Each mesh is treated as if it were alone on the gear's body. Theory (22e).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootBending {
     /// Side of the teeth.
     pub side: Side,
-    /// sigma_max, MPa.
+    /// Largest stress sigma_max, MPa.
     pub largest: f64,
-    /// Estimated error of that, %.
+    /// Estimated error of sigma_max, %.
     pub error_percent: f64,
-    /// sigma_min, MPa: below 0 for compression.
+    /// Smallest stress sigma_min, MPa; negative for compression.
     pub least: f64,
 }
 

@@ -1,39 +1,39 @@
-//! Who gets the rows of a gearbox's motion as they come, and the states that it can be resumed from.
+//! Receives the rows of a gearbox motion as they are computed, and the states from which it can be resumed.
 
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 
 use crate::{SinkResult, motion::EnergyRow};
 
-/// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis and
-/// comes back as [`crate::AnalysisError::Sink`].
+/// Receives the results of a motion as they are computed. All methods do nothing by default. An error of any of them
+/// ends the analysis and is returned as [`crate::AnalysisError::Sink`].
 pub trait GearboxSink {
-    /// Rows begin, or go on after a checkpoint.
+    /// Called when rows begin, or continue after a checkpoint.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn begin_rows(&mut self, _resumes: bool) -> SinkResult {
         Ok(())
     }
 
-    /// A row with the energy so far, in order, the start first.
+    /// Called for each row in order, with the energy balance so far; the initial state comes first.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn row(&mut self, _row: &GearboxInstant, _energy: &EnergyRow) -> SinkResult {
         Ok(())
     }
 
-    /// A state to go on from with all rows so far, as often as the file asks for one, and where the analysis stops before
-    /// its end.
+    /// Called with a state from which the motion can be continued after all rows so far: as often as the file requests
+    /// one, and where the analysis stops before its end.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn checkpoint(&mut self, _state: GearboxCheckpoint) -> SinkResult {
         Ok(())
     }
 }
 
-/// Takes nothing: the result holds all rows.
+/// Sink that takes nothing: the result has all rows.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoGearboxSink;
 

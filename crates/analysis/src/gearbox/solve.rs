@@ -1,4 +1,4 @@
-//! A gearbox solved once, with the settings of its document: equilibrium, then vibration and motion where they are asked.
+//! Solves a gearbox once with the settings of its document: equilibrium, then vibration and motion if requested.
 
 use gearbox::{GearboxError, Train};
 use scene::{

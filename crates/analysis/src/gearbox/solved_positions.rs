@@ -1,4 +1,4 @@
-//! A gearbox at rest, position after position.
+//! A static gearbox, position by position.
 
 use std::f64::consts::TAU;
 

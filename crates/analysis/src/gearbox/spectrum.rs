@@ -1,4 +1,4 @@
-//! A gearbox under every load of a spectrum: what the rating of each mesh and the life of each bearing read of it.
+//! A gearbox under every load of a spectrum: the inputs of each mesh rating and each bearing life.
 
 use std::collections::BTreeMap;
 
@@ -34,10 +34,10 @@ pub(super) struct SolvedSpectrum {
 }
 
 impl SolvedSpectrum {
-    /// Solves the gearbox under each torque of a spectrum; all torques go with the first one.
+    /// Solves the gearbox under each torque of a spectrum; all torques are proportional to the first one.
     ///
     /// # Errors
-    /// [`AnalysisError`] as the equilibrium under one of them.
+    /// The [`AnalysisError`] of the equilibrium under one of them.
     pub fn new(
         parts: &Parts<'_>,
         spectrum: &Spectrum,
@@ -105,7 +105,7 @@ impl SolvedSpectrum {
         }
     }
 
-    /// Loads of a mesh, torque on its driven gear and speed of its driver, and what is solved under them.
+    /// Loads of a mesh (torque on its driven gear, speed of its driver), and the solutions under them.
     pub fn of_mesh(&self, mesh: usize, speed_ratio: f64) -> (Spectrum, &[SolvedLoad]) {
         let solved = &self.meshes[mesh][..];
         let mut torques = self.torques.iter().map(|own| own.map_or(0.0, |own| solved[own].torque_nm));
@@ -117,7 +117,7 @@ impl SolvedSpectrum {
         (loads, solved)
     }
 
-    /// The worst that formulas of lives meet at a bearing.
+    /// Worst values that the life formulas of a bearing receive.
     pub fn limits(&self, bearing: usize) -> LifeLimits {
         self.bearings[bearing].limits
     }
@@ -127,7 +127,8 @@ impl SolvedSpectrum {
     /// ```text
     /// 1/L = sum q_k/L_k,   q_k: share of the life with load k, L_k: life under it alone, h
     /// ```
-    /// `None` where it has none, where some load has none, or where it does not tire. Source: Palmgren-Miner; theory (101e).
+    /// `None` if it has none, if a load has none, or if the bearing does not fatigue. Source: Palmgren-Miner; theory
+    /// (101e).
     pub fn bearing_life_h(&self, bearing: usize) -> Option<f64> {
         let own = self.bearings[bearing];
         (own.per_hour > 0.0 && !own.limits.lacks_film).then(|| 1.0 / own.per_hour)

@@ -1,4 +1,4 @@
-//! What is found of a gearbox that swings about where it stands.
+//! Results of a gearbox vibration about its equilibrium.
 
 use std::sync::Arc;
 
@@ -16,48 +16,48 @@ use crate::{
 /// Elastic modes of the gear on every disc; `None` where it is in no mesh, and nothing where none are kept.
 pub(super) type GearModesOfDiscs = Vec<Option<Arc<GearModes>>>;
 
-/// Vibration of a gearbox about where it stands, order by order of its meshes.
+/// Vibration of a gearbox about its equilibrium, order by order of its meshes.
 #[derive(Debug, Clone)]
 pub struct VibrationResult {
     /// Mass and inertia of the gears, in their order.
     pub gears: Vec<RigidBody>,
-    /// Elastic modes of the gears, in their order; `None` of gears that are rigid beside their teeth.
+    /// Elastic modes of the gears, in order; `None` for gears that are rigid apart from their teeth.
     pub gear_modes: Vec<Option<GearFrequencies>>,
-    /// Mean stiffness of every mesh along its normal, N/mm, by the turn of gear 1.
+    /// Mean stiffness of every mesh along its normal, N/mm, for rotation of gear 1.
     pub mesh_stiffness: Vec<f64>,
     /// Single-sided amplitudes of the loaded transmission error of every mesh, mm, order by order.
     pub transmission_error: Vec<Vec<f64>>,
-    /// Modes at rest that answers are made of, and the highest frequency (Hz) up to which none is left out.
+    /// Number of modes without spin in the response.
     pub modes_kept: usize,
-    /// See `modes_kept`.
+    /// Frequency up to which all modes are included, Hz.
     pub modes_up_to_hz: f64,
-    /// Natural motions at the speeds of the Campbell diagram, as many as are asked for.
+    /// Natural modes at the speeds of the Campbell diagram, as many as requested.
     pub modes: Vec<WhirlModes>,
     /// Natural frequencies over the speed of the input.
     pub campbell: GearboxCampbell,
-    /// Speeds of the input of the forced response, rad/s.
+    /// Speeds of the input for the forced response, rad/s.
     pub speeds: Vec<f64>,
-    /// Every order of every mesh at every speed.
+    /// All orders of all meshes at all speeds.
     pub orders: Vec<Vec<OrderForces>>,
     /// All orders together, speed by speed.
     pub rms: Vec<SpeedRms>,
 }
 
-/// Elastic modes of a gear that vibrate.
+/// Elastic modes of a vibrating gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearFrequencies {
     /// Natural frequencies with the bore held and the flanks free, Hz, ascending.
     pub frequencies_hz: Vec<f64>,
-    /// Whether the gear is known by sectors: its modes then stand in space while the teeth pass.
+    /// Whether the gear is condensed by sectors; its modes are then fixed in space while the teeth pass.
     pub by_sectors: bool,
 }
 
-/// Natural frequencies of a gearbox over the speed of its input, and what excites them.
+/// Natural frequencies of a gearbox over the speed of its input, and its excitations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxCampbell {
-    /// Natural frequencies, and where lines of excitation meet them.
+    /// Natural frequencies, and their intersections with excitation lines.
     pub diagram: Campbell,
-    /// Lines of excitation, in the order of its orders.
+    /// Excitation lines, in the order of the diagram's orders.
     pub lines: Vec<ExcitationLine>,
 }
 
@@ -102,7 +102,7 @@ impl VibrationResult {
         self.beyond_load(file, loads).into_iter().chain(few).chain(still).collect()
     }
 
-    /// Speed (rad/s) at which a root mean square is largest, and its value there; `None` without speeds.
+    /// Speed (rad/s) at which a root mean square is largest, and its value there; `None` if there are no speeds.
     pub fn peak(&self, of: impl Fn(&SpeedRms) -> f64) -> Option<(f64, f64)> {
         let all = self.speeds.iter().zip(&self.rms).map(|(speed, rms)| (*speed, of(rms)));
         all.max_by(|a, b| a.1.total_cmp(&b.1))

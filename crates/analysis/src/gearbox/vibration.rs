@@ -1,4 +1,4 @@
-//! The search for how a gearbox swings about where it stands.
+//! Computes the vibration of a gearbox about its equilibrium.
 
 use std::{f64::consts::TAU, sync::Arc};
 

@@ -1,4 +1,4 @@
-//! What must hold of any motion.
+//! Checks of any motion.
 
 use answer::Remark;
 use geometry::GearPair;
@@ -38,18 +38,18 @@ pub(crate) fn energy_remark(open_over_vibration: f64, keys: StepKeys) -> Option<
         .then(|| remark::vibration_energy_open(open_over_vibration, OPEN_ENERGY, keys.energy()))
 }
 
-/// The least force of a slice in contact (N), below zero where a flank pulls, over the largest normal force (N).
+/// The smallest force of a slice in contact (N), negative if a flank pulls, divided by the largest normal force (N).
 pub fn pulling_check(least_n: f64, largest_n: f64) -> Check {
     // Zero or above is fine, a NaN is not.
     contact_check("pulling_force", if least_n >= 0.0 { 0.0 } else { -least_n }, largest_n)
 }
 
-/// The largest jump of the normal force that a tooth change set off (N), over the largest normal force (N).
+/// The largest jump of the normal force caused by a tooth change (N), divided by the largest normal force (N).
 pub fn force_jump_check(jump_n: f64, largest_n: f64) -> Check {
     Check { bound: JUMP, ..contact_check("force_jump", jump_n, largest_n) }
 }
 
-/// What transmission errors (mm) of a motion say of the deflection of the teeth, over the module.
+/// Deflection of the teeth estimated from transmission errors (mm) of a motion, divided by the module.
 pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl Iterator<Item = f64>) -> Check {
     // A NaN is neither smaller nor larger, and not lost.
     let ends = errors.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], e| {
@@ -59,20 +59,21 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
     Check { name: "dynamic_deflection_over_module".into(), ..deflection_check(scene.pair.normal_module_mm, deflection) }
 }
 
-/// How far flanks are in each other or apart beyond their clearances (mm), over the module (mm): from a whole module on
-/// teeth have passed each other, and no law of a mesh holds.
+/// Overlap or separation of flanks beyond their clearances (mm), divided by the module (mm). From a whole module on,
+/// teeth have passed each other, and no mesh law is valid.
 pub fn excursion_check(farthest_mm: f64, module_mm: f64) -> Check {
     Check { name: "flank_excursion".into(), value: farthest_mm / module_mm, bound: 1.0, hint: EXCURSION_HINT }
 }
 
-/// Error of a map over the mean approach beside the most with which it is taken, and what forces and tilts use of it;
-/// `instead`: what solves the contact itself.
+/// Error of a map relative to the mean approach with the largest permitted error, and the used share of its forces and
+/// tilts; `instead` is the alternative that solves the contact itself.
 pub fn map_checks([error, worst]: [f64; 2], reach: f64, instead: [&'static str; 2]) -> [Check; 2] {
     let [solved, or_damped] = instead;
     [Check::new("map_error", error, worst, solved), map_excess(reach, or_damped)]
 }
 
-/// What forces and tilts use of a map, or of a spring in its place; `instead`: what has no such bound.
+/// Used share of the forces and tilts of a map, or of a spring instead of it; `instead` is the alternative without such
+/// a limit.
 pub fn map_excess(reach: f64, instead: &'static str) -> Check {
     Check::new("map_excess", reach, 1.0, instead)
 }

@@ -1,4 +1,4 @@
-//! The flanks of a mesh in motion: what they do, what must hold of them, what is said.
+//! The flanks of a mesh in motion: results, checks, remarks.
 
 use answer::{Check, Remark};
 use gearbox::motion::FlankCourse;
@@ -49,7 +49,7 @@ pub(crate) struct BothFlanks {
 }
 
 impl BothFlanks {
-    /// Normal forces of a row on driving and coast flanks, N.
+    /// Adds the normal forces of a row on driving and coast flanks, N.
     pub fn push(&mut self, [driving, coast]: [f64; 2]) {
         let shared = driving.min(coast);
         if shared > 0.0 {
@@ -96,7 +96,8 @@ pub(crate) struct MeshInMotion<'a> {
 }
 
 impl MeshInMotion<'_> {
-    /// Flanks that pull, forces that tooth changes set off, deflection and pressure that linear elasticity holds for.
+    /// Checks of tensile forces, of force jumps by tooth changes, and of the range of deflection and pressure in which
+    /// linear elasticity is valid.
     pub fn checks(&self) -> Vec<Check> {
         let Self { scene, pair, flanks, force_n, .. } = *self;
         let deflection = deflection_check_in_motion(scene, pair, self.errors_um.into_iter().map(|um| 1e-3 * um));
@@ -112,7 +113,7 @@ impl MeshInMotion<'_> {
         ]
     }
 
-    /// Flanks that would touch and are not there; flanks on both sides that press at once.
+    /// Remarks about contact on flanks that the model does not have, and about contact on both sides at once.
     pub fn remarks(&self) -> Vec<Remark> {
         let Self { pair, flanks, .. } = *self;
         let mut said = Vec::new();

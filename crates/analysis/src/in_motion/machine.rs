@@ -1,4 +1,4 @@
-//! What is said of a whole machine in motion: its speed, its energy, how it settles.
+//! Remarks about a whole machine in motion: its speed, its energy, its settling.
 
 use answer::Remark;
 use integrate::Periodicity;
@@ -46,7 +46,7 @@ pub(crate) struct Settled<'a> {
 }
 
 impl Settled<'_> {
-    /// A motion that does not repeat itself, or does so after more than one common period.
+    /// A motion that does not repeat, or that repeats only after several common periods.
     pub fn remark(self) -> Option<Remark> {
         let Self { tolerance, found: Periodicity { period, residual }, waited, most, common, why } = self;
         if residual <= tolerance {

@@ -1,5 +1,4 @@
-//! What must hold of any machine in motion, and what a user should hear of it: of a pair alone, and of every mesh of a
-//! gearbox.
+//! Checks of any machine in motion, and remarks for the user: for a single pair, and for every mesh of a gearbox.
 //!
 //! | module | what it does |
 //! |---|---|

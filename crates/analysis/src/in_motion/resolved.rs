@@ -1,4 +1,4 @@
-//! Whether the rows and the steps of a motion show what moves.
+//! Whether the rows and steps of a motion resolve its vibrations.
 
 use answer::Remark;
 use integrate::{Scheme, SteadySteps};
@@ -27,20 +27,20 @@ pub(crate) struct StepKeys {
 }
 
 impl StepKeys {
-    /// In the scene of a pair.
+    /// Names of the keys in the scene of a pair.
     pub const PAIR: Self = Self {
         rows: "more `steps_per_mesh_cycle`",
         steps: "more `steps_per_mesh_cycle` or `steps_per_resonance`",
         energy: "take more `steps_per_mesh_cycle` or `steps_per_resonance`, or `method = \"energy\"`, which keeps energy at any step",
     };
-    /// In the file of a gearbox.
+    /// Names of the keys in a gearbox file.
     pub const GEARBOX: Self = Self {
         rows: "more `steps_per_cycle`, or fewer `steps_per_row`",
         steps: "more `steps_per_cycle`",
         energy: "take more `steps_per_cycle`, or `method = \"energy\"`, which keeps energy at any step",
     };
 
-    /// The same where steps follow an error tolerance, if there is one.
+    /// The same for steps with an error tolerance, if there is one.
     pub fn by(self, tolerance: Option<f64>) -> Self {
         let followed = Self {
             steps: "a smaller `error_tolerance`",
@@ -50,12 +50,12 @@ impl StepKeys {
         if tolerance.is_some() { followed } else { self }
     }
 
-    /// Of a pair's scene with its error tolerance, if it asks for a motion.
+    /// Keys of a pair's scene with its error tolerance, if it requests a motion.
     pub fn of_pair(scene: &Scene) -> Self {
         Self::PAIR.by(scene.motion.as_ref().and_then(|motion| motion.error_tolerance))
     }
 
-    /// What lets energy close.
+    /// What closes the energy balance.
     pub fn energy(self) -> &'static str {
         self.energy
     }
@@ -94,7 +94,7 @@ pub(crate) struct Resolved {
 }
 
 impl MeshRecord<'_> {
-    /// How well its rows and its steps show it.
+    /// How well its rows and steps resolve it.
     pub fn resolved(&self) -> Resolved {
         let found = self.steps.and_then(|steps| Some((steps, self.step_error(&steps)?)));
         let few_steps = found.and_then(|(steps, error)| self.few_steps(&steps, error));

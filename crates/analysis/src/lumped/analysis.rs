@@ -34,7 +34,7 @@ use crate::{
     run_phase, unless_cancelled, worse,
 };
 
-/// Whether a scene's model is one with few coordinates.
+/// Whether the model of a scene has few coordinates.
 pub fn is_lumped(scene: &Scene) -> bool {
     matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact | Model::Mapped)
 }
@@ -45,24 +45,25 @@ const LYAPUNOV_INTERVALS: u32 = 200;
 /// Damping ratio of a mesh whose damping is given in another way: the default of `mesh_damping_ratio`.
 const USUAL_DAMPING: f64 = 0.05;
 
-/// Gets the rows of a cheaper model as they come.
+/// Receives the rows of a cheaper model as they are computed.
 pub trait LumpedSink {
-    /// A row, in order.
+    /// Called for each row in order.
     ///
     /// # Errors
-    /// Whatever ends the analysis; it comes back as [`AnalysisError::Sink`].
+    /// Any error ends the analysis and is returned as [`AnalysisError::Sink`].
     fn row(&mut self, row: &LumpedRow) -> SinkResult;
 
-    /// A state to go on from, with rows and energy so far, as often as [`LumpedAnalysis::with_checkpoints`] asks for one.
+    /// Called with a state from which the run can be continued, with rows and energy so far, as often as
+    /// [`LumpedAnalysis::with_checkpoints`] requests.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: LumpedSoFar<'_>) -> SinkResult {
         Ok(())
     }
 }
 
-/// Takes nothing: the result holds all rows.
+/// Sink that takes nothing: the result has all rows.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoLumpedSink;
 
@@ -72,39 +73,39 @@ impl LumpedSink for NoLumpedSink {
     }
 }
 
-/// The answer to a scene of a cheaper model.
+/// Result of a scene with a cheaper model.
 #[derive(Debug)]
 pub struct LumpedResult {
-    /// What it was made of, and what must hold of it.
+    /// Facts about the run, with its certificate.
     pub facts: RunInfo,
-    /// Row by row, equally many in each mesh cycle.
+    /// Rows, the same number in each mesh cycle.
     pub rows: Arc<RowStore<LumpedRow>>,
     /// Energy since the start, row by row and at the end.
     pub energy: Arc<RowStore<EnergyRow>>,
-    /// Where it ends: another run may go on from there.
+    /// Final state, from which another run may continue.
     pub end: State,
-    /// The pair under the mean load as speed goes to zero; `None` where it finds nothing to rest on.
+    /// The pair under the mean load in the limit of zero speed; `None` if it has no equilibrium.
     pub static_cycle: Option<Vec<StaticPoint>>,
-    /// Lines of the mesh cycles that are judged.
+    /// Spectral lines of the evaluated mesh cycles.
     pub spectrum: MotionSpectrum,
-    /// What is largest over speed, of a ramp.
+    /// Largest values over speed, for a ramp.
     pub run_up: Option<RunUp>,
-    /// Frequencies over speed, of a linear model.
+    /// Frequencies over speed, for a linear model.
     pub campbell: Option<LumpedCampbell>,
-    /// The few numbers that it is made for.
+    /// Headline values.
     pub headline: LumpedHeadline,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
 impl LumpedResult {
-    /// What must hold of it.
+    /// Certificate of the result.
     pub fn certificate(&self) -> &Checks {
         &self.facts.certificate
     }
 }
 
-/// A scene of a cheaper model, to be run in time.
+/// A scene with a cheaper model, to be run in time.
 #[derive(Clone, Copy)]
 pub struct LumpedAnalysis<'a> {
     scene: &'a Scene,
@@ -120,30 +121,32 @@ impl std::fmt::Debug for LumpedAnalysis<'_> {
 }
 
 impl<'a> LumpedAnalysis<'a> {
-    /// Analysis of a scene with the model `mapped`, `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
+    /// Analysis of a scene with the model `mapped`, `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one
+    /// speed or over a ramp.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, cache: &NoCache, checkpoint_every: 0, resume: None }
     }
 
-    /// Hands out a state to go on from after every so many mesh cycles, those of the warm-up included; 0: none.
+    /// Returns a checkpoint after every `every` mesh cycles, including those of the warm-up; 0: none.
     #[must_use]
     pub fn with_checkpoints(self, every: u64) -> Self {
         Self { checkpoint_every: every, ..self }
     }
 
-    /// Goes on from a state of an earlier run of the same scene that left checkpoints as often: to the same bits.
+    /// Continues, to the same bits, from a state of an earlier run of the same scene with checkpoints at the same
+    /// interval.
     #[must_use]
     pub fn resume(self, from: &'a LumpedResume) -> Self {
         Self { resume: Some(from), ..self }
     }
 
-    /// With reduced gears from a cache, where the reduced model feeds the mesh.
+    /// Uses reduced gears from a cache, if the reduced model provides the mesh cycle.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// Runs it, telling nobody.
+    /// Runs it without progress reports.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -151,8 +154,8 @@ impl<'a> LumpedAnalysis<'a> {
         self.solve_into(&mut NoObserver, &mut NoLumpedSink)
     }
 
-    /// Runs it; rows go into `sink` as they come. A result whose certificate does not hold is a result all the same:
-    /// [`RunInfo::verdict`] says so.
+    /// Runs it; rows are passed to `sink` as they are computed. A result whose certificate fails is returned
+    /// nevertheless; [`RunInfo::verdict`] tells.
     ///
     /// # Errors
     /// [`AnalysisError`].

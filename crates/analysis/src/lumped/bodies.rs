@@ -1,4 +1,4 @@
-//! Bodies, supports and torques of the scene in the terms of lumped gears.
+//! Bodies, supports and torques of the scene in the form of the lumped models.
 
 use ::lumped::{Fourier, FourierTorque, lumped8::Support8, lumped12::Support12};
 use dynamics::{Bearing, Drive, RigidBody, Torque};

@@ -1,4 +1,5 @@
-//! Natural frequencies over speed, mesh and shaft orders through them, and a continuum beside the lumped ones.
+//! Natural frequencies over speed, their intersections with mesh and shaft orders, and those of a continuum for
+//! comparison.
 
 use ::lumped::{
     LumpedError,
@@ -27,11 +28,11 @@ const FREE: f64 = 1e-6;
 /// Frequencies over speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LumpedCampbell {
-    /// Lines and where they meet; its speeds are the driver's turns a second.
+    /// Frequencies and resonances; its speeds are those of the driver in revolutions per second.
     pub diagram: Campbell,
     /// Name of each order.
     pub names: Vec<String>,
-    /// Undamped natural frequencies at rest, Hz, the free turn among them.
+    /// Undamped natural frequencies without spin, Hz, including that of the free rotation.
     pub at_rest_hz: Vec<f64>,
     /// Frequencies of the shafts as Timoshenko beams, Hz.
     pub continuum_hz: Option<Vec<f64>>,
@@ -112,7 +113,7 @@ fn continuum(system: &ShaftSystem) -> Result<Vec<f64>, LumpedError> {
 }
 
 impl LumpedCampbell {
-    /// What the summary says of it.
+    /// The corresponding entries of the summary.
     pub fn facts(&self) -> Map<String, Value> {
         let free = self.at_rest_hz.len() - self.diagram.frequencies.len().min(self.at_rest_hz.len());
         let name = |order: f64| {

@@ -1,4 +1,4 @@
-//! Sizes and places of the coordinates of reduced gears.
+//! Scales and positions of the coordinates of reduced gears.
 
 /// Sizes and places of coordinates.
 #[derive(Debug, Clone)]

@@ -1,4 +1,4 @@
-//! Reduced gears in motion, their contact solved or mapped, as the runs of cheaper models ask for them.
+//! Reduced gears in motion, with solved or mapped contact, in the form that runs of cheaper models need.
 
 use answer::Remark;
 use std::time::Instant;
@@ -52,10 +52,10 @@ pub(crate) struct ElasticPair {
 }
 
 impl ElasticPair {
-    /// Reduces the gears and, for the model "mapped", maps their contact.
+    /// Reduces the gears and, for the model "mapped", makes maps of their contact.
     ///
     /// # Errors
-    /// Errors of the reduced gears and of the map.
+    /// The errors of the reduced gears and of the map.
     pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
         let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
@@ -89,7 +89,7 @@ impl ElasticPair {
         Ok(Self { pair, resonance, elasticity, pace, frame, remarks })
     }
 
-    /// What a user should hear of the elasticity of a motion: it is quasi-static but for modes that move.
+    /// Remarks about the elasticity of a motion, which is quasi-static except for modes that are coordinates.
     pub fn remarks_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
         let mesh_hz = mesh_range_hz(scene, motion, None);
         let found = Vibration { mesh_hz, resonance: self.resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };

@@ -1,7 +1,7 @@
-//! Stiffness and error over the mesh cycle: given, fed by the reduced model of the same scene, or ISO's.
+//! Stiffness and error over the mesh cycle: given, from the reduced model of the same scene, or from ISO 6336.
 //!
-//! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2.
-//! Lumped pairs have it there at phase 0, so that their contact lines are half a cycle on.
+//! Scenes and files count a mesh cycle like the reduced model: pair 0 is in the middle of its path at phase 1/2. Lumped
+//! pairs have it there at phase 0, so their contact lines are shifted by half a cycle.
 
 use answer::Remark;
 use std::sync::Arc;
@@ -43,10 +43,10 @@ impl<'a> ExcitationSource<'a> {
         Self { observer, cache, last: None, last_pair: None }
     }
 
-    /// The cycle of a scene, stated on the transverse line of action.
+    /// The cycle of a scene, on the transverse line of action.
     ///
     /// # Errors
-    /// [`AnalysisError::Lumped`] where ISO 6336-1 does not hold; those of the reduced model.
+    /// [`AnalysisError::Lumped`] if ISO 6336-1 does not cover the pair; the errors of the reduced model.
     pub fn of(
         &mut self,
         scene: &Scene,
@@ -79,10 +79,10 @@ impl<'a> ExcitationSource<'a> {
         }
     }
 
-    /// The gears of a scene, reduced, with a map of their contact where the model takes one.
+    /// The reduced gears of a scene, with a map of their contact if the model uses one.
     ///
     /// # Errors
-    /// Errors of the reduced gears and of the map.
+    /// The errors of the reduced gears and of the map.
     pub fn elastic_pair(&mut self, scene: &Scene) -> Result<Arc<ElasticPair>, AnalysisError> {
         let same = without_speed(scene);
         if let Some((_, gears)) = self.last_pair.as_ref().filter(|(known, _)| *known == same) {

@@ -1,4 +1,4 @@
-//! The largest Lyapunov exponent of a motion, by its tangent flow.
+//! The largest Lyapunov exponent of a motion, from its tangent flow.
 
 use std::f64::consts::TAU;
 

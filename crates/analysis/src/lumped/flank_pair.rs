@@ -1,4 +1,4 @@
-//! A pair whose flanks are solved or mapped, as the run of a cheaper model asks for it.
+//! A pair with solved or mapped flanks, in the form that runs of cheaper models need.
 
 use dynamics::{COORDINATES, MeshDamping, Torque};
 use gearbox::{
@@ -40,7 +40,7 @@ pub(super) struct FlankPair {
 }
 
 impl FlankPair {
-    /// The pair at its beginning.
+    /// The pair in its initial state.
     pub fn new(pair: PairModel, frame: ElasticFrame) -> Result<Self, GearboxError> {
         let machine = pair.machine()?;
         let (home, error) = (machine.memory(), machine.error_slopes(0));

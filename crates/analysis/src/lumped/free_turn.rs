@@ -1,4 +1,4 @@
-//! The motion that nothing holds: gears that turn on together.
+//! The motion that nothing holds: all gears rotate together.
 
 use ::lumped::modes::linearised;
 use gearbox::GearboxError;

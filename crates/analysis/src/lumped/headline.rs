@@ -1,4 +1,4 @@
-//! The few numbers that a run of a cheaper model is made for.
+//! Headline values of a run of a cheaper model.
 
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Rigid gears on their true flanks.
+//! Rigid gears with their true flanks.
 
 use ::lumped::{
     LumpedError,

@@ -1,4 +1,4 @@
-//! All that a model of a scene is made of: gathered once, built as often as wanted.
+//! All inputs of a scene's model, collected once; any number of models can be built from them.
 
 use answer::Remark;
 use std::{f64::consts::TAU, sync::Arc};
@@ -47,17 +47,17 @@ impl LumpedSystem {
         self.model.mass().nrows()
     }
 
-    /// The loaded pair as speed goes to zero, at evenly spaced phases; `None` where it finds nothing to rest on.
+    /// The loaded pair in the limit of zero speed at evenly spaced phases; `None` if it has no equilibrium.
     pub fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
         self.model.static_cycle(phases)
     }
 }
 
 impl LumpedInputs {
-    /// Inputs of a scene with a model of few coordinates.
+    /// Inputs of a scene whose model has few coordinates.
     ///
     /// # Errors
-    /// Errors of the geometry of the pair, and of the reduced model if it feeds the mesh.
+    /// The errors of the pair's geometry, and of the reduced model if it provides the mesh cycle.
     pub fn gather(scene: &Scene, source: &mut ExcitationSource<'_>) -> Result<Self, AnalysisError> {
         let pair = scene.gear_pair()?;
         if let Some(own) = &scene.shaft18 {
@@ -77,17 +77,17 @@ impl LumpedInputs {
         Ok(Self { scene: scene.clone(), pair, excitation, elastic })
     }
 
-    /// These inputs in a scene that differs in what neither pair nor excitation depends on: speed, load, damping,
-    /// clearance.
+    /// These inputs in a scene that differs only in quantities on which pair and excitation do not depend: speed, load,
+    /// damping, clearance.
     pub fn in_scene(&self, scene: Scene) -> Self {
         let Self { pair, excitation, elastic, .. } = self;
         Self { scene, pair: pair.clone(), excitation: excitation.clone(), elastic: elastic.clone() }
     }
 
-    /// The model; every one that is built is the same.
+    /// Builds the model; every model built is the same.
     ///
     /// # Errors
-    /// [`AnalysisError::Lumped`] for what has no meaning to it.
+    /// [`AnalysisError::Lumped`] for values that are not valid for the model.
     pub fn build(&self) -> Result<LumpedSystem, AnalysisError> {
         let Self { scene, pair, excitation, elastic } = self;
         let complain = in_scene::<LumpedError>(scene);
@@ -126,18 +126,18 @@ impl LumpedInputs {
         Ok(LumpedSystem { model: model.map_err(complain)?, resonance_hz, remarks, shafts: None })
     }
 
-    /// What a user should hear of a run, beside what the model itself says.
+    /// Remarks about a run, in addition to those of the model itself.
     pub fn remarks_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
         self.elastic.as_ref().map_or_else(Vec::new, |gears| gears.remarks_of(&self.scene, motion, headline))
     }
 
-    /// What a run at many speeds does not look into.
+    /// Remark about effects that a run at many speeds does not examine.
     pub fn left_out_of_sweeps(&self) -> Option<Remark> {
         let quasi_static = self.elastic.is_some() && self.scene.modes.is_none();
         quasi_static.then(crate::remark::inertia_not_judged)
     }
 
-    /// Mesh frequency at the scene's speed, of a ramp at its last, and the resonance of a model.
+    /// Mesh frequency at the scene's speed (for a ramp at its final speed), and the resonance of a model.
     pub fn frequencies(&self, motion: &MotionScene, resonance_hz: f64) -> MeshFrequencies {
         let speed = motion.ramp.map_or(self.scene.operation.speed_rpm, |r| r.to_rpm);
         MeshFrequencies { mesh_hz: speed / 60.0 * f64::from(self.scene.driver_teeth()), resonance_hz }

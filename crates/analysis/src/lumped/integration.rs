@@ -1,4 +1,4 @@
-//! Steps of a run: how long they are, and by which integrator.
+//! Steps of a run: their length, and the integrator.
 
 use gearbox::GearboxError;
 use integrate::{Forces, Integrator, Mechanism, Method, StepControl, StepLimit, Stiffest};
@@ -20,7 +20,7 @@ pub(crate) struct MeshFrequencies {
 }
 
 impl MeshFrequencies {
-    /// Steps between rows that show the mesh resonance with as many steps as asked.
+    /// Number of steps between rows so that a period of the mesh resonance has the requested number of steps.
     pub fn steps_per_row(self, motion: &MotionScene) -> u32 {
         let per_cycle = f64::from(motion.steps_per_resonance) * self.resonance_hz / self.mesh_hz;
         let needed = (per_cycle / f64::from(motion.steps_per_mesh_cycle)).ceil();

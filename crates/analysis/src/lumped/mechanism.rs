@@ -1,4 +1,4 @@
-//! What a model with few coordinates must answer to be run and read, whatever it is made of.
+//! Interface of a model with few coordinates to the runs and their evaluation.
 
 use std::{
     convert::Infallible,
@@ -13,12 +13,12 @@ use serde::{Deserialize, Serialize};
 use super::LumpedRow;
 use crate::{AnalysisError, certificate::Check};
 
-/// The loaded pair at one phase as speed goes to zero.
+/// The loaded pair at one phase in the limit of zero speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticPoint {
     /// Transmission error, mm.
     pub error: f64,
-    /// Length of the contact lines, mm; `None` where the model has none.
+    /// Length of the contact lines, mm; `None` for a model without contact lines.
     pub line_length: Option<f64>,
 }
 
@@ -164,12 +164,12 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = GearboxError> + Send {
     }
 }
 
-/// What a model is beside coordinates and velocities, as a checkpoint holds it.
+/// State of a model in addition to coordinates and velocities, as stored in a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LumpedMemory {
-    /// Nothing: its forces are formulas.
+    /// None: its forces are formulas.
     Formulas,
-    /// Teeth in the windows, extremes, and how far the motion has gone beyond its map.
+    /// Teeth in the windows, extremes, and the largest excursion beyond the map.
     Machine(GearboxMemory),
 }
 

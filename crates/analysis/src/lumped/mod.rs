@@ -1,4 +1,5 @@
-//! Models of few coordinates in time: `lumped8`, `lumped12`, `shaft18`, `impact`, `mapped`; and for many motions, `reduced`.
+//! Models with few coordinates in time: `lumped8`, `lumped12`, `shaft18`, `impact`, `mapped`; and `reduced` for many
+//! motions.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What a user of a cheaper model should hear.
+//! Remarks for the user of a cheaper model.
 
 use answer::Remark;
 use scene::{Model, MotionScene, Run};

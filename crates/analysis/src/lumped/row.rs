@@ -1,55 +1,55 @@
-//! A cheaper model at an instant.
+//! State of a cheaper model at an instant.
 
 use scene::{Driver, Model, Scene};
 use serde::{Deserialize, Serialize};
 
-/// A row of a run: what every model of a pair with few coordinates tells of an instant, and `None` for what only
-/// others know.
+/// A row of a run: the quantities that every model of a pair with few coordinates has at an instant, and `None` for
+/// those that only other models have.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct LumpedRow {
     /// Time, s.
     pub time: f64,
-    /// Mesh cycles since the start; of shafts.
+    /// Mesh cycles since the start; only for shafts.
     pub mesh_cycles: Option<f64>,
-    /// Angle of the pinion, rad, 0 where pair 0 is in the middle of its path of contact; not of shafts.
+    /// Angle of the pinion, rad, 0 when pair 0 is in the middle of its path of contact; not for shafts.
     pub pinion_angle: Option<f64>,
     /// Mesh phase, 0 .. 1.
     pub mesh_phase: f64,
-    /// Speed of pinion and wheel about +z, rad/s; of rigid gears.
+    /// Speed of pinion and wheel about +z, rad/s; only for rigid gears.
     pub speeds: Option<[f64; 2]>,
-    /// Dynamic transmission error on the transverse line of action, um; positive when the driven gear lags.
+    /// Dynamic transmission error on the transverse line of action, um; positive if the driven gear lags.
     pub transmission_error_um: f64,
-    /// Relative displacement of the flanks along the transverse line of action, mm; of lumped gears.
+    /// Relative displacement of the flanks along the transverse line of action, mm; only for lumped gears.
     pub mesh_deflection: Option<f64>,
-    /// Mesh stiffness on the transverse line of action, N/mm; of lumped gears.
+    /// Mesh stiffness on the transverse line of action, N/mm; only for lumped gears.
     pub mesh_stiffness: Option<f64>,
-    /// Compression of the mesh along the normal, mm, and its rate, mm/s; of shafts.
+    /// Compression of the mesh along the normal, mm, and its rate, mm/s; only for shafts.
     pub compression: Option<[f64; 2]>,
-    /// Mesh stiffness along the normal, N/mm; of shafts.
+    /// Mesh stiffness along the normal, N/mm; only for shafts.
     pub normal_mesh_stiffness: Option<f64>,
-    /// Length of the contact lines, mm, 0 where the flanks are apart; not of shafts.
+    /// Length of the contact lines, mm, 0 if the flanks are apart; not for shafts.
     pub contact_line_length: Option<f64>,
-    /// Pairs in contact on the driving side; of rigid gears.
+    /// Number of pairs in contact on the driving side; only for rigid gears.
     pub pairs_in_contact: Option<usize>,
-    /// Normal force, N; of a lumped mesh below zero on the coast flanks, and where a linear mesh pulls.
+    /// Normal force, N; for a lumped mesh it is negative on the coast flanks, and where a linear mesh pulls.
     pub normal_force: f64,
-    /// Friction force on the driver across the line of action, N; of lumped gears.
+    /// Friction force on the driver across the line of action, N; only for lumped gears.
     pub friction_force: Option<f64>,
-    /// Sum of the normal forces on the coast flanks, N; of rigid gears, as all below.
+    /// Sum of the normal forces on the coast flanks, N; only for rigid gears, like all fields below.
     pub coast_normal_force: Option<f64>,
     /// Smallest normal force of a slice in contact, N; 0 without contact.
     pub least_slice_force: Option<f64>,
-    /// Deepest overlap of driving and coast flanks, mm; below zero where they are apart, 0 where nothing is near.
+    /// Deepest overlap of driving and coast flanks, mm; negative if they are apart, 0 if nothing is near.
     pub overlap: Option<[f64; 2]>,
     /// Largest normal force of a pair, N.
     pub largest_pair_force: Option<f64>,
     /// Forces x, y, z (N) and moments about x, y, z (N mm) of the mesh on pinion and wheel, about their own centres.
     pub wrench: [[f64; 6]; 2],
-    /// The part of them that is friction.
+    /// The friction part of these forces and moments.
     pub friction_wrench: Option<Box<[[f64; 6]; 2]>>,
     /// Coordinates of the gears, mm and rad, in the order of [`gear_coordinates`].
     pub displacement: Vec<f64>,
-    /// Their rates, mm/s and rad/s.
+    /// Rates of the coordinates, mm/s and rad/s.
     pub velocity: Vec<f64>,
 }
 
@@ -80,12 +80,12 @@ impl LumpedRow {
     }
 }
 
-/// A direction in which a gear moves.
+/// Direction of a gear's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CoordinateAxis {
     /// Across the transverse line of action.
     Across,
-    /// Along it.
+    /// Along the transverse line of action.
     Along,
     /// Along global x.
     X,
@@ -97,7 +97,7 @@ pub enum CoordinateAxis {
     TiltX,
     /// About global y.
     TiltY,
-    /// About the axis, beyond the nominal turn.
+    /// About the axis, relative to the nominal rotation.
     Turn,
 }
 
@@ -109,7 +109,7 @@ pub(super) fn axis_number(axis: CoordinateAxis) -> usize {
 /// A coordinate of a gear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GearCoordinate {
-    /// 0 pinion, 1 wheel.
+    /// 0 for the pinion, 1 for the wheel.
     pub gear: usize,
     /// Direction of the coordinate.
     pub axis: CoordinateAxis,
@@ -128,8 +128,8 @@ pub(super) const SIX: [CoordinateAxis; 6] = [
     CoordinateAxis::Turn,
 ];
 
-/// Coordinates of the gears in rows of a scene's model, in their order: of lumped gears the driver's first, of shafts
-/// the pinion's; rigid gears have none in their rows.
+/// Coordinates of the gears in the rows of a scene's model, in order. For lumped gears the driver's come first, for
+/// shafts the pinion's; rigid gears have none in their rows.
 pub fn gear_coordinates(scene: &Scene) -> Vec<GearCoordinate> {
     let by_role = match scene.operation.driver {
         Driver::Pinion => [0, 1],

@@ -1,4 +1,4 @@
-//! A run of a model: its mesh cycles, and what is read off them.
+//! A run of a model: its mesh cycles, and their evaluation.
 
 use std::sync::Arc;
 
@@ -55,21 +55,21 @@ pub(crate) struct LumpedRun {
     pub steps_per_row: u32,
 }
 
-/// A state to go on from, with the rows before it.
+/// A state from which a run continues, with the preceding rows.
 #[derive(Debug, Clone)]
 pub struct LumpedResume {
-    /// The motion, and how far it has come.
+    /// State of the motion and its stage.
     pub checkpoint: LumpedCheckpoint,
     /// Rows so far.
     pub rows: Arc<RowStore<LumpedRow>>,
-    /// Energy, row by row.
+    /// Energy balance, row by row.
     pub energy: Arc<RowStore<EnergyRow>>,
 }
 
 /// Rows of a motion so far, and its energy row by row.
 pub type LumpedSoFar<'a> = (&'a RowStore<LumpedRow>, &'a RowStore<EnergyRow>);
 
-/// All that a motion of a model is at the end of a mesh cycle, but for its rows so far.
+/// State of a model's motion at the end of a mesh cycle, without its rows so far.
 pub type LumpedCheckpoint = Checkpoint<LumpedMemory>;
 
 /// What is told of a run on its way.
@@ -139,10 +139,10 @@ impl Timetable<&mut BoxedMechanism> for LumpedTimes<'_> {
 }
 
 impl RunPlan<'_> {
-    /// Runs it; the clock begins at 0 whatever the state's own says.
+    /// Runs the model; time starts at 0 whatever the time of the state.
     ///
     /// # Errors
-    /// [`AnalysisError`] where there is nothing to start from, or a step does not settle; that of the observer.
+    /// [`AnalysisError`] if there is no initial equilibrium, or if a step does not converge; the error of the observer.
     pub fn run(&self, model: &mut BoxedMechanism, observer: &mut dyn RunObserver) -> Result<LumpedRun, AnalysisError> {
         let Self { scene, motion, frequencies, from, checkpoint_every, resume } = *self;
         let per_cycle = motion.steps_per_mesh_cycle as usize;

@@ -1,4 +1,4 @@
-//! What is read off the rows of a run as they come.
+//! Evaluates the rows of a run as they are computed.
 
 use std::f64::consts::TAU;
 

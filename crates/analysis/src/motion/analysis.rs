@@ -33,7 +33,7 @@ use crate::{
     run_up::RunUpTorque,
 };
 
-/// A scene to be solved in time: `run` "steady", "shooting", "span" or "ramp" of reduced gears.
+/// A scene to be solved in time: `run` "steady", "shooting", "span" or "ramp" with reduced gears.
 #[derive(Clone)]
 pub struct MotionAnalysis<'a> {
     scene: &'a Scene,
@@ -52,83 +52,82 @@ impl std::fmt::Debug for MotionAnalysis<'_> {
 /// How a motion ended.
 #[derive(Debug)]
 pub enum MotionOutcome {
-    /// It came to its end.
+    /// It was completed.
     Finished(Box<MotionResult>),
-    /// It stopped where it was asked to; the sink has a checkpoint.
+    /// It stopped where requested; the sink has a checkpoint.
     Stopped {
-        /// Mesh cycles done.
+        /// Number of completed mesh cycles.
         cycles: u64,
     },
 }
 
-/// The answer to a scene in time.
+/// Result of a scene in time.
 #[derive(Debug, Clone)]
 pub struct MotionResult {
-    /// The exact pair.
+    /// The nominal gear pair.
     pub pair: GearPair,
-    /// Equally many rows in each mesh cycle.
+    /// Rows, the same number in each mesh cycle.
     pub rows: Arc<RowStore<MotionRow>>,
-    /// What all rows share.
+    /// Properties that all rows have in common.
     pub layout: MotionLayout,
-    /// The few numbers that it is made for.
+    /// Headline values.
     pub headline: MotionHeadline,
-    /// The mesh cycle at rest that the motion starts from.
+    /// The static mesh cycle with which the motion starts.
     pub quasi_static: QuasiStatic,
-    /// Lines of a motion at constant speed.
+    /// Spectrum of a motion at constant speed.
     pub spectrum: Option<MotionSpectrum>,
-    /// A motion whose speed changes.
+    /// Results of a motion with a speed ramp.
     pub ramp: Option<RampResult>,
-    /// What the driving flanks were pressed by.
+    /// Pressure patterns on the driving flanks.
     pub patterns: [GearPattern; 2],
     /// Facts about the model, with its certificate.
     pub facts: RunInfo,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
-/// What a run-up or run-down shows over speed.
+/// Results of a run-up or run-down over speed.
 #[derive(Debug, Clone)]
 pub struct RampResult {
-    /// Mesh cycle by mesh cycle.
+    /// Results per mesh cycle.
     pub run_up: RunUp,
-    /// Order spectra, stretch by stretch.
+    /// Order spectra, section by section.
     pub waterfall: Waterfall,
-    /// Mesh orders through the pair's frequencies.
+    /// Campbell diagram: mesh orders and the pair's frequencies.
     pub campbell: CampbellDiagram,
 }
 
 impl<'a> MotionAnalysis<'a> {
-    /// Of a scene, its meshes read or made as it says.
+    /// Analysis of a scene, with its meshes read or generated as it says.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, meshes: None, cache: &NoCache, from: None, stop_after: None }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
-    /// are.
+    /// Uses meshes of pinion and wheel from the caller instead of those of the scene. They are checked like mesh files.
     #[must_use]
     pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// From a checkpoint on. `rows`: all rows before it, in the bits in which they were handed out.
+    /// Continues from a checkpoint. `rows` are all preceding rows, in the bits in which they were passed to the sink.
     #[must_use]
     pub fn resume(self, checkpoint: MotionCheckpoint, rows: impl Into<Arc<RowStore<MotionRow>>>) -> Self {
         Self { from: Some(ResumedState { checkpoint, rows: rows.into() }), ..self }
     }
 
-    /// Stops when so many mesh cycles are done, settling included, and hands out a checkpoint; `None`: at its end only.
+    /// Stops after a number of mesh cycles, settling included, and returns a checkpoint; `None`: only at its end.
     #[must_use]
     pub fn stop_after(self, cycles: Option<u64>) -> Self {
         Self { stop_after: cycles, ..self }
     }
 
-    /// Solves it to its end, telling nobody; where to stop before that is left aside.
+    /// Solves it to its end without progress reports; a request to stop before that is ignored.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -136,7 +135,7 @@ impl<'a> MotionAnalysis<'a> {
         result(self.stop_after(None).follow(&mut NoObserver, &mut NoMotionSink)?)
     }
 
-    /// Solves it; rows go into `sink` as they come.
+    /// Solves it; rows are passed to `sink` as they are computed.
     ///
     /// # Errors
     /// [`AnalysisError`].

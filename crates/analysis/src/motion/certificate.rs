@@ -1,4 +1,4 @@
-//! What must hold of a motion.
+//! Checks of a motion.
 
 use gearbox::motion::SweepPoint;
 use geometry::GearPair;

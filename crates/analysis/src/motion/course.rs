@@ -1,4 +1,4 @@
-//! The course of one motion of a scene: what is asked of it, and who gets its rows and checkpoints.
+//! The run of one motion of a scene: its plan, and the receivers of its rows and checkpoints.
 
 use std::sync::Arc;
 

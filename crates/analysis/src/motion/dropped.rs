@@ -1,4 +1,4 @@
-//! A force that a tooth change of a pair drops.
+//! A force that is lost at a tooth change of a pair.
 
 use ale::AleError;
 use gearbox::motion::PairModel;

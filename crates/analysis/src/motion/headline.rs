@@ -1,4 +1,4 @@
-//! The few numbers that a motion is run for.
+//! Headline values of a motion.
 
 use dynamics::Drive;
 use scene::{MotionScene, Run, Scene};
@@ -107,7 +107,7 @@ described::described! {
 }
 
 impl MotionHeadline {
-    /// Largest root tension (MPa) of pinion and wheel and its estimated error (%), when they were asked for.
+    /// Largest root tension (MPa) of pinion and wheel and its estimated error (%), if requested.
     pub fn root_tensions(&self) -> Option<[(f64, f64); 2]> {
         let (stress, error) = (self.max_root_tension_mpa?, self.max_root_tension_estimated_error_percent?);
         Some([(stress[0], error[0]), (stress[1], error[1])])

@@ -1,4 +1,4 @@
-//! What a user should hear of a motion.
+//! Remarks about a motion for the user.
 
 use answer::Remark;
 use dynamics::Drive;

@@ -1,4 +1,4 @@
-//! The pressure pattern that a motion leaves on the driving flank of one tooth of each gear.
+//! The pressure pattern of a motion on the driving flank of one tooth of each gear.
 
 use gearbox::motion::PairInstant;
 use geometry::GearPair;
@@ -18,10 +18,10 @@ pub(super) struct PatternRecord {
 }
 
 impl PatternRecord {
-    /// Flanks that nothing has touched, or those of a checkpoint.
+    /// Patterns of flanks without contact so far, or those of a checkpoint.
     ///
     /// # Errors
-    /// [`StudyError`] when a flank has no height.
+    /// [`StudyError`] if a flank has no height.
     pub fn new(
         scene: &Scene,
         motion: &MotionScene,
@@ -36,7 +36,7 @@ impl PatternRecord {
         Ok(Self { sense: scene.operation.rotation.sign() as f64, reach, touches: Default::default(), grids })
     }
 
-    /// A row of the cycle.
+    /// Adds a row of the cycle.
     pub fn push(&mut self, now: &PairInstant) {
         let [driving, _] = &now.flanks;
         for pressed in &driving.slices {
@@ -48,10 +48,10 @@ impl PatternRecord {
         }
     }
 
-    /// The cycle is over: all its pairs together are one engagement of one tooth.
+    /// Ends the cycle: all its pairs together are one engagement of one tooth.
     ///
     /// # Errors
-    /// [`StudyError`] when a result is no number.
+    /// [`StudyError`] if a result is not a finite number.
     pub fn end_cycle(&mut self) -> Result<(), StudyError> {
         for (touches, grid) in self.touches.iter_mut().zip(&mut self.grids) {
             grid.press(touches, self.reach)?;

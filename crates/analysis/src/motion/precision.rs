@@ -1,4 +1,4 @@
-//! Step sizes against errors: the same motion by every method, against a fine reference.
+//! Accuracy against step size: the same motion by every method, compared with a fine reference.
 
 use std::time::Instant;
 
@@ -28,43 +28,43 @@ const PLACES: u32 = 8;
 /// Mesh cycles from the quasi-static start on.
 const CYCLES: u32 = 1;
 
-/// One method with one step.
+/// One method with one step length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionPrecisionPoint {
-    /// Name of the method, as scenes have it.
+    /// Name of the method, as in scenes.
     pub method: &'static str,
-    /// In a mesh cycle.
+    /// Number of steps in a mesh cycle.
     pub steps: u32,
-    /// Largest difference of the DTE to the reference; `None` where the method does not come through.
+    /// Largest difference of the DTE from the reference; `None` if the method fails.
     pub error_um: Option<f64>,
-    /// Wall time of a mesh cycle, s.
+    /// Wall-clock time of a mesh cycle, s.
     pub cycle_s: f64,
-    /// Why it does not come through.
+    /// Reason of the failure.
     pub note: String,
 }
 
-/// All of them.
+/// Results of all methods.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionPrecision {
     /// Method by method, step by step.
     pub points: Vec<MotionPrecisionPoint>,
-    /// What errors are measured against.
+    /// Name of the reference for the errors.
     pub reference: String,
-    /// Mesh frequency over mesh resonance.
+    /// Mesh frequency divided by the mesh resonance.
     pub mesh_over_resonance: f64,
-    /// Mesh cycles from the quasi-static start.
+    /// Number of mesh cycles from the quasi-static start.
     pub cycles: u32,
 }
 
 impl MotionPrecision {
-    /// Methods in order.
+    /// Names of the methods in order.
     pub fn methods(&self) -> Vec<&'static str> {
         let mut names: Vec<_> = self.points.iter().map(|p| p.method).collect();
         names.dedup();
         names
     }
 
-    /// Steps a mesh cycle in order.
+    /// Numbers of steps per mesh cycle in order.
     pub fn counts(&self) -> Vec<u32> {
         let mut counts: Vec<_> = self.points.iter().map(|p| p.steps).collect();
         counts.sort_unstable();
@@ -73,10 +73,10 @@ impl MotionPrecision {
     }
 }
 
-/// Runs every method with every step; `quick`: steps down to T_m/64 only.
+/// Runs every method with every step length; `quick`: only steps down to T_m/64.
 ///
 /// # Errors
-/// [`AnalysisError`] when the input is wrong, or the reference does not come out.
+/// [`AnalysisError`] if the input is invalid, or if the reference fails.
 pub fn motion_precision(
     scene: &Scene,
     observer: &mut dyn Observer,

@@ -1,4 +1,4 @@
-//! One row of a motion: what is kept of each instant.
+//! One row of a motion: the values stored for each instant.
 
 use std::f64::consts::TAU;
 
@@ -11,86 +11,85 @@ use serde::{Deserialize, Serialize};
 
 use crate::results::{MAX_PRINCIPAL, MIN_PRINCIPAL, PressureSpot, VON_MISES, base_radius_mm, error_percent};
 
-/// One row of a motion, in the units of the result files; a field's name ends in its unit, and `docs/outputs.md` says
-/// of each what it is.
+/// One row of a motion, in the units of the result files. The name of a field ends in its unit; `docs/outputs.md`
+/// explains each field.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionRow {
-    /// Since the quasi-static start.
+    /// Time since the quasi-static start.
     pub time_s: f64,
-    /// Of the nominal motion; 0 where pair 0 stands in the middle of the path of contact.
+    /// Pinion angle of the nominal motion; 0 when pair 0 is in the middle of the path of contact.
     pub pinion_angle_deg: f64,
-    /// 0 .. 1 within the mesh cycle, of the nominal motion.
+    /// Phase of the nominal motion, 0 .. 1 within the mesh cycle.
     pub mesh_phase: f64,
-    /// Pinion and wheel, about +z.
+    /// Speeds of pinion and wheel, about +z.
     pub speed_rpm: [f64; 2],
-    /// Lag of the driven gear behind the nominal motion on its base circle: the dynamic transmission error.
+    /// Dynamic transmission error: lag of the driven gear behind the nominal motion on its base circle.
     pub dte_um: f64,
-    /// Its rate.
+    /// Rate of the dynamic transmission error.
     pub dte_rate_um_per_s: f64,
-    /// Of the driving flanks.
+    /// Length of the contact lines of the driving flanks.
     pub contact_line_length_mm: f64,
-    /// Tooth pairs whose driving flanks carry load.
+    /// Number of tooth pairs whose driving flanks carry load.
     pub pairs_in_contact: u32,
-    /// Of the mesh on pinion and wheel, fixed axes.
+    /// Force of the mesh on pinion and wheel, fixed axes.
     pub force_n: [[f64; 3]; 2],
-    /// The same about the displaced centres.
+    /// Moment of the mesh on pinion and wheel about their displaced centres, fixed axes.
     pub moment_nmm: [[f64; 3]; 2],
-    /// Normal force of each pair by its number within the mesh cycle, from the least number on (see
-    /// [`MotionLayout::pairs`]);
-    /// 0 outside of the window.
+    /// Normal force of each pair by its number within the mesh cycle, starting with the smallest number (see
+    /// [`MotionLayout::pairs`]); 0 outside the window.
     pub pair_normal_force_n: Box<[f64]>,
     /// Bearings and displacements of pinion and wheel; `None` for a gear without free coordinates.
     pub bearing: [Option<Box<BearingRow>>; 2],
-    /// Sum over the driving flanks, damping included.
+    /// Sum of the normal forces over the driving flanks, damping included.
     pub normal_force_n: f64,
-    /// The same of the coast flanks.
+    /// Sum of the normal forces over the coast flanks, damping included.
     pub coast_normal_force_n: f64,
-    /// Of the driver in the running sense.
+    /// Torque of the driver in the running sense.
     pub drive_torque_nm: f64,
-    /// On the driven gear against its motion.
+    /// Torque on the driven gear against its motion.
     pub load_torque_nm: f64,
-    /// Largest pressure.
+    /// Largest contact pressure.
     pub max_pressure_mpa: f64,
-    /// Where that is; `None` without load.
+    /// Position of the largest pressure; `None` without load.
     pub max_pressure_at: Option<PressureSpot>,
-    /// Since the quasi-static start.
+    /// Number of tooth changes since the quasi-static start.
     pub tooth_changes: u64,
-    /// Pinion and wheel, where the scene asks for it.
+    /// Root stress of pinion and wheel, if the scene requests it.
     pub root_stress: Option<Box<[RootStressRow; 2]>>,
-    /// Where the energy went.
+    /// Energy balance.
     pub energy: EnergyRow,
 }
 
-/// What holds a gear that has free coordinates, and where it is.
+/// Bearing force and displacement of a gear with free coordinates.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct BearingRow {
-    /// On the gear.
+    /// Force on the gear.
     pub force_n: [f64; 3],
-    /// On the gear, about x and y.
+    /// Moment on the gear, about x and y.
     pub moment_nmm: [f64; 2],
-    /// Displacement of its centre.
+    /// Displacement of the gear's centre.
     pub displacement_um: [f64; 3],
-    /// Turns about x and y.
+    /// Rotations about x and y.
     pub tilt_urad: [f64; 2],
 }
 
-/// Largest stresses in the fillets of one gear's window; no numbers where coast flanks press as well.
+/// Largest stresses in the fillets of one gear's window; NaN if coast flanks are in contact as well.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RootStressRow {
     /// Largest first principal stress.
     pub max_principal_mpa: f64,
-    /// Least third principal stress.
+    /// Smallest third principal stress.
     pub min_principal_mpa: f64,
     /// Largest von Mises stress.
     pub von_mises_mpa: f64,
-    /// Estimate of how far the largest tension is off.
+    /// Estimated error of the largest tension.
     pub estimated_error_percent: f64,
 }
 
-/// The ledger of a motion at a time: work and energy since the start, mJ = N mm.
+/// The energy balance of a motion at a time: work and energy since the start, mJ = N mm.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyRow {
-    /// s.
+    /// Time, s.
     pub time_s: f64,
     /// Kinetic energy.
     pub kinetic_mj: f64,
@@ -98,16 +97,16 @@ pub struct EnergyRow {
     pub elastic_mj: f64,
     /// Work of drive and load.
     pub supplied_mj: f64,
-    /// What the turning of the teeth under load does to their elastic energy.
+    /// Change of the teeth's elastic energy by their rotation under load.
     pub parametric_mj: f64,
-    /// In dampers and by friction.
+    /// Energy dissipated by dampers and friction.
     pub dissipated_mj: f64,
-    /// What the integrator adds or takes.
+    /// Energy that the integrator adds or removes.
     pub residual_mj: f64,
 }
 
 impl EnergyRow {
-    /// Of a ledger at a time, s.
+    /// Row of a ledger at a time, s.
     pub fn of(time_s: f64, ledger: &Ledger) -> Self {
         Self {
             time_s,
@@ -121,7 +120,7 @@ impl EnergyRow {
     }
 }
 
-/// What all rows of a motion share.
+/// Properties that all rows of a motion have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLayout {
     /// Pitch angle of the pinion, rad.
@@ -136,7 +135,7 @@ pub struct MotionLayout {
 }
 
 impl MotionLayout {
-    /// Of a scene and a window of so many teeth.
+    /// Layout for a scene and a window of a given number of teeth.
     pub fn of(scene: &Scene, window: usize) -> Self {
         let free = scene.gears().map(|g| {
             let axes = g.body.as_ref().map_or(&[][..], |b| &b.free);
@@ -152,12 +151,12 @@ impl MotionLayout {
         }
     }
 
-    /// Numbers of the pairs that a row has the forces of.
+    /// Numbers of the pairs whose forces a row contains.
     pub fn pairs(&self) -> std::ops::RangeInclusive<i64> {
         -self.reach..=self.reach
     }
 
-    /// Free coordinates of a gear: x, y, z, and the turns about x and y.
+    /// Whether x, y, z and the rotations about x and y are free coordinates of a gear.
     pub fn free(&self, gear: usize) -> [bool; 5] {
         self.free[gear]
     }
@@ -167,7 +166,7 @@ impl MotionLayout {
         self.root_stress
     }
 
-    /// The row of an instant.
+    /// The row at an instant.
     pub fn row(&self, now: &PairInstant, ledger: &Ledger) -> MotionRow {
         let (cycle, [driving, _]) = (cycle(now), &now.flanks);
         let [normal_force_n, coast_normal_force_n] = now.normal_forces();
@@ -207,7 +206,7 @@ impl MotionLayout {
 }
 
 impl MotionRow {
-    /// Normal force of a pair by its number within the mesh cycle, N; 0 outside of the window.
+    /// Normal force of a pair by its number within the mesh cycle, N; 0 outside the window.
     pub fn pair_force_n(&self, pair: i64) -> f64 {
         let place = usize::try_from(pair + self.pair_normal_force_n.len() as i64 / 2).ok();
         place.and_then(|i| self.pair_normal_force_n.get(i)).copied().unwrap_or(0.0)

@@ -1,4 +1,4 @@
-//! Who gets the rows of a motion as they come, and the states that it can be resumed from.
+//! Receives the rows of a motion as they are computed, and the states from which it can be resumed.
 
 use dynamics::SideLoads;
 use gearbox::motion::GearboxMemory;
@@ -10,52 +10,52 @@ use study::FlankPattern;
 use super::{MotionLayout, MotionRow};
 use crate::{Observer, SinkResult, facts::MeshFacts};
 
-/// All that a motion is at the end of a mesh cycle, but for its rows so far: it goes on from here to the same bits.
+/// State of a motion at the end of a mesh cycle, without its rows so far; it continues from here to the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionCheckpoint {
-    /// Teeth of the window.
+    /// Number of teeth of the window.
     pub window: usize,
-    /// The motion, and how far it has come.
+    /// State of the motion and its stage.
     pub motion: Checkpoint<GearboxMemory>,
-    /// What the flanks were pressed by so far.
+    /// Pressure patterns of the flanks so far.
     pub patterns: [FlankPattern; 2],
 }
 
-/// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis
-/// and comes back as [`crate::AnalysisError::Sink`].
+/// Receives the results of a motion as they are computed. All methods do nothing by default. An error of any of them
+/// ends the analysis and is returned as [`crate::AnalysisError::Sink`].
 pub trait MotionSink {
-    /// The meshes are read.
+    /// Called when the meshes have been read.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn meshes(&mut self, _meshes: &[MeshFacts]) -> SinkResult {
         Ok(())
     }
 
-    /// The analysis begins, again where a wider window is needed: what came before does not count.
+    /// Called when the analysis begins, and again if a wider window is needed; earlier results are then discarded.
     fn begin(&mut self) {}
 
-    /// A position of the quasi-static mesh cycle that the motion starts from, in order; the model is where it was
-    /// found.
+    /// Called for each position of the quasi-static mesh cycle with which the motion starts, in order; the model is in
+    /// the state of that position.
     fn position(&mut self, _index: usize, _position: &StaticPosition, _model: &StaticModel) {}
 
-    /// The quasi-static mesh cycle is solved. What comes back are remarks.
+    /// Called when the quasi-static mesh cycle is solved; returns remarks.
     fn quasi_static(&mut self, _model: &StaticModel, _observer: &mut dyn Observer) -> Vec<answer::Remark> {
         Vec::new()
     }
 
-    /// Rows begin, or go on after a checkpoint.
+    /// Called when rows begin, or continue after a checkpoint.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn begin_rows(&mut self, _layout: &MotionLayout, _from: Option<&MotionCheckpoint>) -> SinkResult {
         Ok(())
     }
 
-    /// A row, in order.
+    /// Called for each row in order.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn row(&mut self, _row: &MotionRow) -> SinkResult {
         Ok(())
     }
@@ -65,41 +65,41 @@ pub trait MotionSink {
         false
     }
 
-    /// What presses on the flanks at a row that [`MotionSink::wants_fields`]; time in s.
+    /// Called with the loads on the flanks at a row that [`MotionSink::wants_fields`]; time in s.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn fields(&mut self, _row: u64, _time_s: f64, _sides: &[SideLoads<'_>]) -> SinkResult {
         Ok(())
     }
 
-    /// A mesh cycle of rows is complete; `recorded`: how many there are.
+    /// Called when a mesh cycle of rows is complete; `recorded` is their number.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn end_cycle(&mut self, _recorded: u64) -> SinkResult {
         Ok(())
     }
 
-    /// A state to go on from with all rows so far, as often as the scene asks for one, and where the analysis stops
-    /// before its end.
+    /// Called with a state from which the motion can be continued after all rows so far: as often as the scene requests
+    /// one, and where the analysis stops before its end.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn checkpoint(&mut self, _state: MotionCheckpoint) -> SinkResult {
         Ok(())
     }
 
-    /// All rows have come.
+    /// Called when all rows have been computed.
     ///
     /// # Errors
-    /// Whatever ends the analysis.
+    /// Any error ends the analysis.
     fn finish(&mut self) -> SinkResult {
         Ok(())
     }
 }
 
-/// Takes nothing: the result holds all rows.
+/// Sink that takes nothing: the result has all rows.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoMotionSink;
 

@@ -1,4 +1,4 @@
-//! How many steps a longer analysis would take, and how long at the pace of this one.
+//! Estimates the steps of a longer analysis, and its time at the pace of the current one.
 
 use std::f64::consts::TAU;
 
@@ -46,7 +46,8 @@ pub(crate) struct StepEstimate {
 }
 
 impl StepDemand {
-    /// `cycles`: mesh cycles that were taken at each speed, on average; `mesh_hz`: least and highest mesh frequency.
+    /// `cycles` is the average number of mesh cycles at each speed; `mesh_hz` has the lowest and highest mesh
+    /// frequency.
     pub fn new(scene: &Scene, motion: &MotionScene, cycles: f64, mesh_hz: [f64; 2]) -> Self {
         let settles = matches!(motion.run, Run::Steady | Run::Shooting | Run::Sweep);
         let runs = motion.sweep.as_ref().map_or(1.0, |s| f64::from(s.speeds) * s.ways.len() as f64);
@@ -61,7 +62,7 @@ impl StepDemand {
         }
     }
 
-    /// Of a motion of a gearbox with so many cycles of its fastest mesh, Hz, those to settle in among them.
+    /// Demand of a gearbox motion with a number of cycles of its fastest mesh (Hz), including those for settling.
     pub fn of_gearbox((file, motion): (&Gearbox, &GearboxMotion), cycles: f64, mesh_hz: f64) -> Self {
         Self {
             rows: f64::from(motion.steps_per_cycle),
@@ -74,8 +75,8 @@ impl StepDemand {
         }
     }
 
-    /// With modes of both gears up to `below_hz`, the lowest at `lowest_hz`: steps have to show the highest, and the
-    /// lowest has to die out. `already`: this run has modes.
+    /// Demand with modes of both gears up to `below_hz`, the lowest at `lowest_hz`: steps must resolve the highest
+    /// mode, and the lowest must decay. `already` tells whether this run has modes.
     pub fn with_modes(&self, below_hz: f64, lowest_hz: f64, already: bool) -> StepEstimate {
         let settling = self.decay.map_or(0.0, |d| d / (TAU * self.mode_damping) * self.mesh_hz / lowest_hz);
         let cycles = self.cycles.max(settling) * self.runs;
@@ -83,7 +84,8 @@ impl StepDemand {
         StepEstimate { steps: cycles * per_cycle, cost: if already { 1.0 } else { MODES_COST } }
     }
 
-    /// As the scene has it, before it begins: steps of a cycle times cycles, the lowest mode dying out among them.
+    /// Demand of the scene itself before it begins: steps per cycle times cycles, with the decay of the lowest mode
+    /// included.
     pub fn as_it_is(&self, system: &PairModel) -> StepEstimate {
         let fastest = fastest_hz(system);
         let slowest = system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::min);
@@ -97,19 +99,19 @@ pub(crate) fn fastest_hz(system: &PairModel) -> f64 {
 }
 
 impl Pace {
-    /// Of so many steps in a wall time, s.
+    /// Pace of a number of steps in a wall-clock time, s.
     pub fn of(wall_s: f64, steps: f64) -> Self {
         Self { step_s: (steps > 0.0 && wall_s > 0.0).then(|| wall_s / steps) }
     }
 }
 
 impl StepEstimate {
-    /// Steps in all.
+    /// Total number of steps.
     pub fn steps(&self) -> f64 {
         self.steps
     }
 
-    /// In motion.
+    /// Text about the motion.
     pub fn describe(&self, pace: Pace) -> String {
         let steps = format!("some {} steps", grouped(self.steps));
         match pace.step_s.map(|s| s * self.cost * self.steps) {

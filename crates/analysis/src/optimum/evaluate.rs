@@ -1,4 +1,4 @@
-//! A design at all its torques and in all its samples.
+//! Evaluates a design at all its torques and for all its samples.
 
 use design::{Curve, Evaluation, Limited};
 use scene::{Scene, optimum::Optimisation};

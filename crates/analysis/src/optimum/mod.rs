@@ -1,4 +1,4 @@
-//! Which micro-geometry is quiet? Designs of an optimisation, evaluated with their derivatives.
+//! Optimisation of micro-geometry for low noise: evaluation of designs with their derivatives.
 //!
 //! | module | what it does |
 //! |---|---|

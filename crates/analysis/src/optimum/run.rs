@@ -12,26 +12,26 @@ use crate::{AnalysisError, SharedModels};
 /// The optimum of a plan.
 #[derive(Debug, Clone)]
 pub struct Optimum {
-    /// The plan as it was searched: with its number of slices.
+    /// The plan as it was searched, with its number of slices.
     pub plan: Optimisation,
-    /// The search.
+    /// Result of the search.
     pub found: SearchResult,
-    /// Values that a machine can be set to; those of the search where that is any.
+    /// Parameter values rounded to machine settings; those of the search if every value can be set.
     pub values: Vec<f64>,
-    /// All that is known there.
+    /// Evaluation of these values.
     pub evaluation: Evaluation,
-    /// Optima with lower limits of the pressure, from the highest.
+    /// Optima with lower pressure limits, starting from the highest.
     pub front: Vec<FrontPoint>,
 }
 
-/// An optimum below a limit of the pressure.
+/// An optimum with a pressure limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrontPoint {
-    /// The limit; none for the optimum itself, MPa.
+    /// The limit, MPa; `None` for the optimum itself.
     pub limit_mpa: Option<f64>,
     /// Largest pressure, MPa.
     pub max_pressure_mpa: f64,
-    /// What shall be small, um.
+    /// Value of the goal that is minimised, um.
     pub goal_um: f64,
     /// Values of the parameters.
     pub values: Vec<f64>,
@@ -42,11 +42,11 @@ const FRONT: f64 = 0.1;
 /// Evaluations for each point of the front.
 const FRONT_EVALUATIONS: usize = 8;
 
-/// Searches the optimum; `seen` is told of every evaluation: which one it is, and the goal, um; where it breaks, no
-/// more is evaluated.
+/// Searches the optimum. `seen` receives the number and the goal (um) of every evaluation; if it breaks, no more
+/// designs are evaluated.
 ///
 /// # Errors
-/// [`AnalysisError`] of the start, or of the rounded optimum.
+/// [`AnalysisError`] at the start, or at the rounded optimum.
 pub fn optimise(
     models: &SharedModels<'_>,
     plan: &Optimisation,

@@ -1,4 +1,4 @@
-//! What is reported of an optimum.
+//! Results of an optimum for the report.
 
 use design::{Goal, Measure};
 use ltca::{StaticHistory, StaticPosition};
@@ -8,14 +8,14 @@ use serde::Serialize;
 use super::Optimum;
 use crate::{AnalysisError, RemarksAtRest, RestRequest, SharedModels, parallel_map, shared_solutions::Rates};
 
-/// Before and after.
+/// Results before and after optimisation.
 #[derive(Debug, Clone)]
 pub struct Optimised {
-    /// At each torque that counts, as the drawing says and without deviations.
+    /// Results at each torque that counts, for the nominal design without deviations.
     pub torques: Vec<TorqueLine>,
-    /// Over the torque.
+    /// Results over the torque.
     pub harris: Vec<HarrisPoint>,
-    /// What each parameter does.
+    /// Influence of each parameter.
     pub influences: Vec<Influence>,
 }
 
@@ -84,7 +84,7 @@ described::described! {
 /// Torques of the Harris map over the largest that counts.
 const SHARES: [f64; 12] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4];
 
-/// Solves what is reported of an optimum: every position with slices of its own number, as a run does.
+/// Computes the report of an optimum; every position has its own number of slices, as in a run.
 ///
 /// # Errors
 /// [`AnalysisError`] at a torque that counts.
@@ -183,7 +183,7 @@ fn influences(optimum: &Optimum) -> Vec<Influence> {
 }
 
 impl Optimised {
-    /// Words for what was made small.
+    /// Text for the goal that is minimised.
     pub fn goal_words(goal: &Goal) -> &'static str {
         match goal.measure {
             Measure::PeakToPeak => "peak to peak of the transmission error",

@@ -7,21 +7,21 @@ const MEAN_STIFFNESS: f64 = 20.0;
 /// Young's modulus of that steel, MPa.
 const STEEL: f64 = 2.06e5;
 
-/// What closed forms say of a loaded pair.
+/// Closed-form estimates of a loaded pair.
 ///
 /// ```text
 /// deflection = F_bt / (b c_gamma_alpha)   (ISO 6336-1, bodies left out),   pressure: Hertz at the pitch point
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadEstimate {
-    /// Mean deflection of the teeth along the line of action, over the normal module.
+    /// Mean deflection of the teeth along the line of action, divided by the normal module.
     pub modules: f64,
     /// Mean deflection of the teeth along the line of action, mm.
     pub deflection_mm: f64,
     /// Largest nominal Hertz pressure, MPa.
     pub pressure_mpa: f64,
-    /// The largest pressure over the effective modulus E* of both materials; half the width of a Hertz band over the radius of
-    /// the flanks is twice this.
+    /// The largest pressure divided by the effective modulus E* of both materials. Half the width of a Hertz band
+    /// divided by the radius of the flanks is twice this value.
     pub pressure_over_modulus: f64,
 }
 

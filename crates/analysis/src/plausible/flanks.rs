@@ -1,4 +1,4 @@
-//! How much is ground off the flanks of a gear.
+//! Amount of material removed from the flanks of a gear.
 
 use geometry::{Gear, Side};
 

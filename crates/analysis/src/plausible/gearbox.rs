@@ -1,4 +1,4 @@
-//! Numbers of a gearbox file that are possible and unlikely: shafts, bearings, gears and machines in other units.
+//! Values of a gearbox file that are possible but unlikely: shafts, bearings, gears and machines in other units.
 
 use std::f64::consts::PI;
 
@@ -29,7 +29,7 @@ const GYRATIONS: [f64; 2] = [0.05, 3.0];
 /// has some million.
 const MACHINE: f64 = 1e7;
 
-/// What is unlikely in a gearbox file, with the unit that may have been meant.
+/// Remarks about unlikely values of a gearbox file, with the unit that may have been intended.
 pub fn gearbox_remarks(file: &Gearbox) -> Vec<Remark> {
     let moves = file.vibration.is_some() || file.motion.is_some() || file.branch.is_some();
     let shafts = file.shafts.iter().flat_map(|shaft| {

@@ -1,4 +1,4 @@
-//! What sizes a result may have before linear elasticity means nothing.
+//! Limits of results beyond which linear elasticity is not valid.
 
 use contact::line::hertz;
 use geometry::{Gear, GearPair, Side};

@@ -1,4 +1,4 @@
-//! Materials that gears and shafts are made of.
+//! Materials of gears and shafts.
 
 /// Softer than this is rubber, or a number of GPa, MPa.
 pub(super) const SOFT: f64 = 1000.0;

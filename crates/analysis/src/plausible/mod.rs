@@ -1,7 +1,7 @@
-//! Whether a scene can be meant as it is written: judged in closed form before any work, and by its result after it.
+//! Plausibility of a scene: checked in closed form before the solution, and by its result afterwards.
 //!
-//! Elasticity here is linear and holds for small strains. A torque in N mm, a modulus in GPa or a width in m gives a
-//! result that solves all equations and means nothing.
+//! Elasticity here is linear and valid for small strains. A torque in N mm, a modulus in GPa or a width in m gives a
+//! result that satisfies all equations but is meaningless.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! Scenes that no gear pair is: told before any work, with the unit that was meant.
+//! Rejects scenes that no real gear pair corresponds to, before the solution, and names the unit that was probably
+//! intended.
 
 use answer::digits;
 use geometry::GearPair;
@@ -18,30 +19,30 @@ const PRESSURE: f64 = 0.5;
 /// Deflection in modules, and pressure over E*, of a scene that makes sense.
 const USUAL: [f64; 2] = [0.1, 0.05];
 
-/// What a scene would mean that cannot be meant, and its likely cause.
+/// Consequence of an impossible scene, and its likely cause.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beyond {
-    /// Keys that may be wrong, the likeliest first.
+    /// Keys that may be wrong, the most likely first.
     pub keys: Vec<String>,
     /// Consequence of the value.
     pub said: String,
-    /// What to write.
+    /// Hint: what to write instead.
     pub hint: String,
-    /// Whether the torque is likely in N mm.
+    /// Whether the torque was probably given in N mm.
     pub in_n_mm: bool,
 }
 
-/// Refuses a scene whose load bends teeth by their own size, or whose micro-geometry leaves no tooth.
+/// Rejects a scene whose load deflects teeth by their own size, or whose micro-geometry leaves no tooth.
 ///
 /// # Errors
-/// [`AnalysisError::Refused`] at the key that is likely wrong.
+/// [`AnalysisError::Refused`] at the key that is probably wrong.
 pub fn refuse(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(found) = no_tip(scene, pair).or_else(|| beyond(scene, pair)) else { return Ok(()) };
     let keys: Vec<&str> = found.keys.iter().map(String::as_str).collect();
     Err(AnalysisError::from(Refusal::input(found.said, found.hint)).at(place_in(scene, &keys)))
 }
 
-/// A load that bends the teeth by their own size; `None` where it does not.
+/// A load that deflects the teeth by their own size; `None` if it does not.
 pub fn beyond(scene: &Scene, pair: &GearPair) -> Option<Beyond> {
     above(scene, pair, [MODULES, PRESSURE])
 }

@@ -1,4 +1,4 @@
-//! Values that are possible and unlikely: said once, before any work.
+//! Values that are possible but unlikely; reported once, before the solution.
 
 use std::f64::consts::PI;
 
@@ -31,7 +31,7 @@ const THIN_MM: f64 = 5e-4;
 /// Speeds of machines are multiples of this, 1/min.
 const ROUND_RPM: f64 = 50.0;
 
-/// What is unlikely in a scene, with the unit that may have been meant.
+/// Remarks about unlikely values of a scene, with the unit that may have been intended.
 pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
     let gears = [("pinion", &scene.pinion, &pair.pinion), ("wheel", &scene.wheel, &pair.wheel)];
     let (alike, dynamic) = (scene.pinion.material == scene.wheel.material, scene.analysis.kind == Kind::Dynamic);

@@ -1,6 +1,5 @@
-//! Numbers that are taken from a solved history before it is written: pairs by their place in the mesh cycle, contact
-//! patterns, the place of
-//! the largest pressure, the largest root stresses, the few numbers that a run at rest is made for. No files here.
+//! Values computed from a solved history before it is written: numbers of pairs in the mesh cycle, contact patterns,
+//! position of the largest pressure, largest root stresses, headline of a static run. No files here.
 
 pub mod pairs;
 mod pattern;

@@ -1,12 +1,12 @@
-//! Which column a tooth pair goes into.
+//! Assigns tooth pairs to columns.
 
 use std::collections::BTreeSet;
 
 use ltca::{StaticHistory, StaticPosition};
 
-/// Number of a pair within its mesh cycle: 0 for the pair whose contact passes the middle of the path during
-/// this cycle, 1 for the one ahead of it in the sense of rotation, -1 for the one behind; so that a column means the
-/// same in every cycle and a run of a thousand turns has as many columns as one of a single cycle.
+/// Number of a pair within its mesh cycle: 0 for the pair whose contact passes the middle of the path during this
+/// cycle, 1 for the one ahead of it in the sense of rotation, -1 for the one behind. So a column means the same in
+/// every cycle, and a run of a thousand rotations has as many columns as one of a single cycle.
 pub fn in_cycle(position: &StaticPosition, pair: i64, pitch_angle: f64) -> i64 {
     // angle / pitch - phase is a whole number, or half of one where phase 1/2 is the middle: both round alike.
     // Pair numbers grow in the sense of rotation, so the pair of the next cycle is one less.
@@ -23,13 +23,13 @@ pub fn columns(history: &StaticHistory, pitch_angle: f64) -> Vec<i64> {
     all.into_iter().collect()
 }
 
-/// Pinion and wheel tooth of the pair of that column; `None` when it is not in the window.
+/// Pinion and wheel tooth of the pair of this column; `None` if it is not in the window.
 pub fn teeth(position: &StaticPosition, column: i64, pitch_angle: f64) -> Option<[u32; 2]> {
     let pair = position.pairs.iter().find(|p| in_cycle(position, p.pair, pitch_angle) == column)?;
     Some([pair.pinion_tooth, pair.wheel_tooth])
 }
 
-/// Normal force of the pair of that column, N; 0 when it is not in the window.
+/// Normal force of the pair of this column, N; 0 if it is not in the window.
 pub fn force(position: &StaticPosition, column: i64, pitch_angle: f64) -> f64 {
     // 0.0 first: the sum of nothing is -0.0 otherwise.
     0.0 + position

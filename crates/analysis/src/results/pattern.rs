@@ -1,4 +1,4 @@
-//! The pressure pattern that a run leaves on the driving flank of one tooth of each gear.
+//! The pressure pattern of a run on the driving flank of one tooth of each gear.
 
 use std::f64::consts::PI;
 
@@ -14,16 +14,16 @@ use super::pairs::in_cycle;
 /// Steps of the pattern along the profile: less than the half-width of a usual band each.
 const PROFILE_STEPS: usize = 40;
 
-/// Who was pressed how hard, on one gear.
+/// Pressure pattern on one gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPattern {
-    /// `pinion` or `wheel`.
+    /// Name of the gear, `pinion` or `wheel`.
     pub name: &'static str,
-    /// The driving flank of tooth 0, nominal: micro-geometry is too small to be seen.
+    /// The driving flank of tooth 0 without micro-geometry, which is too small to be visible.
     pub flank: Flank,
     /// x and z of the gear's centre, at mid-face, mm; y is 0.
     pub centre: [f64; 2],
-    /// Ends of the common face over the gear's own mid-face, mm: what the grid covers of the flank.
+    /// Ends of the common face relative to the gear's own mid-face, mm: the part of the flank that the grid covers.
     pub face: [f64; 2],
     /// Largest pressure and line load over roll angle and height.
     pub grid: FlankPattern,
@@ -35,14 +35,14 @@ impl GearPattern {
         diameter(self.flank.base_radius, roll)
     }
 
-    /// Height of the lower edge of a station's strip over the gear's mid-face, mm; that of the number of stations is the
-    /// upper end of the common face.
+    /// Height of the lower edge of a station's strip relative to the gear's mid-face, mm. For the index after the last
+    /// station it is the upper end of the common face.
     pub fn strip_edge(&self, station: usize) -> f64 {
         let ([low, high], count) = (self.face, self.grid.stations().len());
         0.5 * (low + high) + 0.5 * (high - low) * (2.0 * station.min(count) as f64 / count as f64 - 1.0)
     }
 
-    /// Largest pressure of all, MPa.
+    /// Largest pressure of the pattern, MPa.
     pub fn largest_pressure(&self) -> f64 {
         self.grid.max_pressure().iter().copied().fold(0.0, f64::max)
     }
@@ -55,28 +55,27 @@ pub fn diameter(base_radius: f64, roll: f64) -> f64 {
 
 /// Patterns of pinion and wheel.
 ///
-/// All pairs of a mesh cycle together are one whole engagement of one tooth: pair k at phase s is where a tooth gets to
-/// k + s
-/// cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest values
-/// count.
+/// All pairs of a mesh cycle together are one complete engagement of one tooth: pair k at phase s is where a tooth is k
+/// + s cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest
+/// values count.
 ///
 /// # Errors
-/// [`StudyError`] when the flank has no height, or a result is no number.
+/// [`StudyError`] if the flank has no height, or if a result is not a finite number.
 pub fn patterns(scene: &Scene, pair: &GearPair, positions: &[StaticPosition]) -> Result<[GearPattern; 2], StudyError> {
     Ok([pattern(scene, pair, positions, 0)?, pattern(scene, pair, positions, 1)?])
 }
 
-/// A driving flank that nothing has pressed.
+/// A driving flank without contact.
 ///
 /// # Errors
-/// [`StudyError`] when the flank has no height.
+/// [`StudyError`] if the flank has no height.
 pub fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
     let stations = stations(pair, gear, scene.contact.slices.unwrap_or(1) as usize);
     FlankPattern::new(flank.roll_range(), PROFILE_STEPS, stations)
 }
 
-/// A grid with the flank that it lies on.
+/// A grid with the flank on which it lies.
 pub fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern) -> GearPattern {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
     let centre = [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][gear];
@@ -84,7 +83,7 @@ pub fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern)
     GearPattern { name: ["pinion", "wheel"][gear], flank, centre, face, grid }
 }
 
-/// What a loaded slice of a pair is to the pattern of a gear.
+/// Contact of a loaded slice of a pair on the pattern of a gear.
 pub fn touch(slice: &SliceResult, gear: usize, engagement: f64) -> Touch {
     Touch {
         z: [slice.z, slice.wheel_z][gear],

@@ -1,4 +1,4 @@
-//! Where the largest pressure is.
+//! Position of the largest pressure.
 
 use contact::{Site, SliceResult};
 use ltca::StaticHistory;
@@ -35,7 +35,7 @@ described::described! {
 }
 
 impl PressurePlace {
-    /// Place of the largest pressure of a history at rest; `None` without loaded slices.
+    /// Position of the largest pressure of a static history; `None` without loaded slices.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
         let slices = history
             .positions
@@ -58,7 +58,7 @@ impl PressurePlace {
         })
     }
 
-    /// Place of the largest pressure of one row of a motion.
+    /// Position of the largest pressure of one row of a motion.
     pub fn of_spot(spot: &PressureSpot, pinion_angle_deg: f64, mesh_phase: f64) -> Self {
         let PressureSpot { site: place, z_mm, pinion_diameter_mm } = *spot;
         let (wheel_diameter_mm, pinion_tooth, wheel_tooth) = (None, None, None);
@@ -74,7 +74,7 @@ impl PressurePlace {
         }
     }
 
-    /// In words, for tables and reports.
+    /// Text for tables and reports.
     pub fn describe(&self) -> String {
         let diameter = self.pinion_diameter_mm;
         format!("{}, z {:.2} mm, d1 {diameter:.2} mm", words(self.place), self.z_mm)
@@ -91,10 +91,10 @@ fn words(site: Site) -> &'static str {
     }
 }
 
-/// Where the hardest pressed slice of a row is.
+/// Position of the slice with the largest pressure of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PressureSpot {
-    /// Flank, end face, or a tip edge.
+    /// Part of the flank: flank, end face, or a tip edge.
     pub site: Site,
     /// Height on the pinion.
     pub z_mm: f64,
@@ -103,26 +103,26 @@ pub struct PressureSpot {
 }
 
 impl PressureSpot {
-    /// Spot of the largest pressure of the loaded slices of a row; `None` without any.
+    /// Position of the largest pressure of a row's loaded slices; `None` if there are none.
     pub fn of<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> Option<Self> {
         let s = SliceResult::hardest(slices)?;
         Some(Self { site: s.site, z_mm: s.z, pinion_diameter_mm: diameter(base_radius_mm, s.roll[0]) })
     }
 
-    /// Spot of a site by its number in files; `None` for a number that no site has.
+    /// Position with the part of the flank given by its number in files; `None` for an unknown number.
     pub fn of_number(number: usize, z_mm: f64, pinion_diameter_mm: f64) -> Option<Self> {
         let site = *Site::ALL.get(number.checked_sub(1)?)?;
         Some(Self { site, z_mm, pinion_diameter_mm })
     }
 
-    /// Number of the site in files: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel.
+    /// Number of the part of the flank in files: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel.
     pub fn site_number(&self) -> usize {
         Site::ALL.iter().position(|site| *site == self.site).map_or(0, |i| i + 1)
     }
 }
 
-/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row, the place
-/// by [`PressureSpot::site_number`]; 0 and `NaN` without any.
+/// Part, height (mm) and diameter on the pinion (mm) of the largest pressure of a row's loaded slices. The part is
+/// given by [`PressureSpot::site_number`]; 0 and `NaN` if there are no loaded slices.
 pub fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
     let Some(spot) = PressureSpot::of(base_radius_mm, slices) else { return [0.0, f64::NAN, f64::NAN] };
     [spot.site_number() as f64, spot.z_mm, spot.pinion_diameter_mm]

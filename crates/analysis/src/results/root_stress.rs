@@ -1,4 +1,4 @@
-//! Root stress in the result files: what is the largest, of which tooth, and where.
+//! Root stress in the result files: largest values, their teeth, and positions.
 
 use gearbox::MeshState;
 use geometry::Side;
@@ -60,10 +60,10 @@ described::described! {
     }
 }
 
-/// A measure of stress in a fillet; the sign says which end of it is the worst.
+/// A stress measure in a fillet; its sign tells which extreme is the worst.
 #[derive(Debug, Clone, Copy)]
 pub struct Measure {
-    /// As in column names.
+    /// Name as in column names.
     pub name: &'static str,
     sign: f64,
     peak: fn(&FilletStress) -> &StressPeak,
@@ -83,7 +83,7 @@ impl Measure {
         fillets.reduce(|best, f| if value(f) > value(best) { f } else { best })
     }
 
-    /// The worst of some fillets, MPa; of one tooth when it is given. NaN where there is none.
+    /// The worst value of several fillets, MPa; of one tooth if it is given. NaN if there is none.
     pub fn stress(&self, fillets: &[FilletStress], tooth: Option<u32>) -> f64 {
         let fillets = fillets.iter().filter(|f| tooth.is_none_or(|tooth| f.tooth == tooth));
         self.worst(fillets).map_or(f64::NAN, |f| (self.peak)(f).stress)
@@ -109,14 +109,14 @@ impl Measure {
     }
 }
 
-/// Estimated error of the largest tension of some fillets, %; NaN where there is none.
+/// Estimated error of the largest tension of several fillets, %; NaN if there is none.
 pub fn error_percent(fillets: &[FilletStress]) -> f64 {
     MAX_PRINCIPAL.worst(fillets.iter()).map_or(f64::NAN, |f| 100.0 * f.max_principal.relative_error())
 }
 
-/// What a user should hear of root stresses whose mesh is too coarse for them.
+/// Remarks about root stresses whose mesh is too coarse.
 ///
-/// `largest`: the largest tension of pinion and wheel (MPa) and its estimated error (%).
+/// `largest` has the largest tension of pinion and wheel (MPa) and its estimated error (%).
 pub fn root_stress_remarks(largest: [(f64, f64); 2]) -> impl Iterator<Item = answer::Remark> {
     ["pinion", "wheel"]
         .into_iter()
@@ -128,8 +128,8 @@ pub fn root_stress_remarks(largest: [(f64, f64); 2]) -> impl Iterator<Item = ans
 /// From this estimate on the user is told, %.
 pub(crate) const DOUBTFUL_PERCENT: f64 = 3.0;
 
-/// Largest first principal stresses in the fillets of pinion and wheel over the fillets of some positions, MPa; `None` where
-/// they are not computed.
+/// Largest first principal stresses in the fillets of pinion and wheel over several positions, MPa; `None` if they are
+/// not computed.
 pub fn largest_tensions<'a>(positions: impl Iterator<Item = &'a [Vec<FilletStress>; 2]> + Clone) -> Option<[f64; 2]> {
     let of = |gear: usize| positions.clone().map(move |both| MAX_PRINCIPAL.stress(&both[gear], None));
     let known = |gear: usize| of(gear).filter(|stress| !stress.is_nan()).reduce(f64::max);
@@ -148,7 +148,7 @@ pub fn fillet_peaks(fillets: &[FilletField]) -> Vec<FilletStress> {
     fillets.iter().map(|own| own.peaks).collect()
 }
 
-/// Largest root stresses of a run that computed them.
+/// Largest root stresses of a run with root stress.
 pub fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
     let gear = |i| {
         Some(GearRootStress {

@@ -1,4 +1,4 @@
-//! The few numbers that a run is made for.
+//! Headline values of a run.
 
 use ltca::{StaticHistory, StaticPosition};
 use scene::Scene;
@@ -94,10 +94,10 @@ described::described! {
     }
 }
 
-/// Headline numbers of a history over the scene's whole mesh cycles.
+/// Headline values of a history over the scene's whole mesh cycles.
 ///
 /// # Errors
-/// [`StudyError`] when the history is not what the scene asked for, or holds a transmission error that is no number.
+/// [`StudyError`] if the history does not match the scene, or if a transmission error is not a finite number.
 pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticHeadline, StudyError> {
     let positions = &history.positions;
     let cycles = scene.analysis.cycles as usize;

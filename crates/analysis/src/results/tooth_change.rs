@@ -1,4 +1,4 @@
-//! Where the window of teeth moves on, and what that changes of the solution.
+//! Changes of the tooth window, and their effect on the solution.
 
 use ltca::{StaticHistory, ToothChangeRecord};
 use serde::Serialize;
@@ -27,7 +27,7 @@ described::described! {
 }
 
 impl ToothChangeHeadline {
-    /// Tooth changes of a history at rest; `None` where no tooth changes.
+    /// Tooth changes of a static history; `None` if no tooth changes.
     pub fn of(history: &StaticHistory) -> Option<Self> {
         let all = &history.tooth_changes;
         let first = all.first()?;
@@ -44,7 +44,7 @@ impl ToothChangeHeadline {
         })
     }
 
-    /// In words, for tables and reports.
+    /// Text for tables and reports.
     pub fn words(&self) -> String {
         let Self { mesh_cycles, pinion_angle_deg, max_ste_jump_um, .. } = self;
         format!("first at {mesh_cycles:.3} cycles, {pinion_angle_deg:.2} deg; STE jumps by {max_ste_jump_um:.1e} um")

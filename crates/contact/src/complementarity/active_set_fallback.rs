@@ -1,4 +1,5 @@
-//! Fallback where Newton's method on forces and active set cycles: tangents are frozen while the active set is found.
+//! Fallback for Newton's method on forces and active set when it cycles: tangents are frozen while the active set is
+//! found.
 
 use super::{
     DenseProblem, DenseSolver, Equality, LinearContact, LocalApproach, Problem,

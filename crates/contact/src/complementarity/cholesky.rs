@@ -1,7 +1,8 @@
-//! Cholesky's factor of a small dense matrix, and solutions with it, in blocks of four.
+//! Cholesky factor of a small dense matrix, and solutions with it, in blocks of four.
 //!
-//! Contact has some fifty active rows. A factor of that order costs 25,000 multiplications, and several times that in a
-//! library made for thousands: it prepares blocks and kernels that never come to work.
+//! A contact problem has about fifty active rows. A factor of that order costs 25,000 multiplications. A library made
+//! for orders of thousands needs several times that, because it prepares blocks and kernels that are not used at this
+//! size.
 
 use pulp::{Simd, WithSimd};
 

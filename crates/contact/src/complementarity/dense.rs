@@ -1,5 +1,5 @@
-//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used
-//! again. Theory (37).
+//! Slices whose compliance is given as a matrix: Newton's method on forces and active set at once, in reused memory.
+//! Theory (37).
 
 use std::ops::Range;
 
@@ -12,12 +12,12 @@ use crate::{ContactError, complementarity::opening::Opening, lanes};
 /// Coordinates of two rigid bodies.
 pub(super) const RIGID: usize = 12;
 
-/// Balance of the contact forces: with a moment, or at held bodies.
+/// Condition on the bodies: equilibrium with a moment, or no motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
-    /// The bodies stand still, whatever the forces.
+    /// The bodies do not move, whatever the forces.
     Held,
-    /// One body turns until contact carries this moment about its axis, N mm.
+    /// One body rotates until contact carries this moment about its axis, N mm.
     Moment(f64),
 }
 
@@ -31,33 +31,33 @@ impl Balance {
     }
 }
 
-/// Contact of n rows that see each other with a dense compliance.
+/// Contact of n rows that are coupled by a dense compliance.
 ///
 /// ```text
 /// g_i = g0_i + l_i dtheta + sum_j S_ij F_j + delta_i(F_i) >= 0,   F_i >= 0,   F_i g_i = 0
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct DenseProblem<'a> {
-    /// S, mm/N, n x n, both triangles.
+    /// Compliance S, mm/N, n x n, both triangles.
     pub compliance: MatRef<'a, f64>,
-    /// Whether S is symmetric: no friction.
+    /// Whether S is symmetric, which holds without friction.
     pub symmetric: bool,
-    /// g0, mm.
+    /// Undeformed gaps g0, mm.
     pub gaps: &'a [f64],
-    /// l, mm.
+    /// Levers l, mm.
     pub levers: &'a [f64],
-    /// Moment of a unit normal force, friction included, mm.
+    /// Moment per unit normal force, friction included, mm.
     pub torque_levers: &'a [f64],
-    /// dtheta held at 0, or to balance a moment.
+    /// Whether the rotation dtheta is held at 0 or balances a moment.
     pub balance: Balance,
 }
 
-/// The rows' own compliance, not linear in their forces.
+/// Local compliance of the rows, nonlinear in their forces.
 pub trait LocalApproach {
-    /// Approach delta (mm) of a row under a force (N), and its slope (mm/N), positive.
+    /// Approach delta (mm) of a row under a force (N), and its slope (mm/N), which is positive.
     fn under(&self, row: usize, force: f64) -> (f64, f64);
 
-    /// Approach and slope of the active rows under their forces; those of others do not matter.
+    /// Approach and slope of the active rows under their forces; the values of other rows are not used.
     fn linearise(&self, active: &[usize], forces: &[f64], approach: &mut [f64], slopes: &mut [f64]) {
         active.iter().for_each(|&i| (approach[i], slopes[i]) = self.under(i, forces[i]));
     }
@@ -69,8 +69,8 @@ impl<F: Fn(usize, f64) -> (f64, f64)> LocalApproach for F {
     }
 }
 
-/// Solver with the memory for a number of rows; nothing is allocated in [`DenseSolver::solve`] unless its Newton steps
-/// do not settle.
+/// Solver with memory for a given number of rows. [`DenseSolver::solve`] allocates nothing unless its Newton steps do
+/// not converge.
 pub struct DenseSolver {
     pub(super) forces: Vec<f64>,
     pub(super) openings: Vec<f64>,
@@ -119,7 +119,7 @@ impl std::fmt::Debug for DenseSolver {
 }
 
 impl DenseSolver {
-    /// Memory for up to `most` rows.
+    /// Allocates memory for up to `most` rows.
     pub fn new(most: usize) -> Self {
         let lu = lu::factor::lu_in_place_scratch::<usize, f64>(most, most, Par::Seq, Default::default());
         let solve = lu::solve::solve_in_place_scratch::<usize, f64>(most, RIGID, Par::Seq);
@@ -155,42 +155,43 @@ impl DenseSolver {
         &self.forces
     }
 
-    /// Opening of every row by all compliance, its own included, mm.
+    /// Opening of every row by the total compliance, including its own, mm.
     pub fn openings(&self) -> &[f64] {
         &self.openings
     }
 
-    /// Rows that press, ascending.
+    /// Rows in contact, ascending.
     pub fn active(&self) -> &[usize] {
         &self.active
     }
 
-    /// dtheta, rad.
+    /// Rotation dtheta, rad.
     pub fn rotation(&self) -> f64 {
         self.rotation
     }
 
-    /// -dM/dtheta, N mm/rad, of a balance of moments.
+    /// Torsional stiffness -dM/dtheta, N mm/rad, if a moment is balanced.
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// Newton steps of the last solve.
+    /// Number of Newton steps of the last solve.
     pub fn iterations(&self) -> usize {
         self.iterations
     }
 
-    /// Largest violation of the conditions relative to the largest approach.
+    /// Largest violation of the contact conditions relative to the largest approach.
     pub fn residual(&self) -> f64 {
         self.residual
     }
 
-    /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive); `start` the force to start
-    /// row i from, 0 where there is none.
+    /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive). `start` is the initial
+    /// force of row i; 0 if there is none.
     ///
-    /// Newton on forces and active set at once (semi-smooth Newton; Hintermueller, Ito, Kunisch, SIAM J. Optim. 13(3),
-    /// 2003): rows that pull leave, rows that overlap enter, each with the tangent of its delta. Where that goes in
-    /// circles, tangents are held while the set is found by pivots that cannot.
+    /// Newton's method on forces and active set at once (semi-smooth Newton; Hintermueller, Ito, Kunisch, SIAM J.
+    /// Optim. 13(3), 2003). Rows with tensile force leave the active set and rows that overlap enter it, each with the
+    /// tangent of its delta. If this cycles, tangents are frozen while the set is found by pivoting, which cannot
+    /// cycle.
     ///
     /// # Errors
     /// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`], [`ContactError::NotPositiveDefinite`].
@@ -203,11 +204,11 @@ impl DenseSolver {
         self.solve_to(0.0, problem, local, start)
     }
 
-    /// Solves the contact until the conditions are violated by no more than `accuracy`, relative to the largest
-    /// approach; no accuracy below that of [`DenseSolver::solve`] is reached.
+    /// Solves the contact until the violation of the conditions, relative to the largest approach, is at most
+    /// `accuracy`. The accuracy is never better than that of [`DenseSolver::solve`].
     ///
     /// # Errors
-    /// As [`DenseSolver::solve`].
+    /// The errors of [`DenseSolver::solve`].
     pub fn solve_to(
         &mut self,
         accuracy: f64,

@@ -1,4 +1,4 @@
-//! The factor of a tangent on the active rows, and solutions with it.
+//! Factor of a tangent on the active rows, and solutions with it.
 
 use dyn_stack::MemStack;
 use faer::{

@@ -1,13 +1,14 @@
-//! g >= 0, p >= 0, p g = 0 at every point, and a rotation that balances the moment. Theory (16), (17).
+//! Contact conditions g >= 0, p >= 0, p g = 0 at every point, and a rotation that balances the moment. Theory (16),
+//! (17).
 //!
 //! ```text
 //! g_i = g0_i + l_i dtheta + o_i(F) + d_i F_i,    sum_i l_i F_i = M
 //! F_i >= 0,  g_i >= 0,  F_i g_i = 0
 //! ```
-//! With friction the moment of a force has a lever of its own, and the openings are those by normal and friction force
-//! together. g0 undeformed gap, l lever, o opening by elastic deflection, d local compliance: 1/(k A_i) with the
-//! penalty law, 0 with exact contact. The problem is the optimality condition of a convex quadratic programme, so the
-//! answer for the rotation and the gaps is unique.
+//! With friction the moment of a force has a separate lever, and the openings are those by normal and friction force
+//! together. g0 is the undeformed gap, l the lever, o the opening by elastic deflection, d the local compliance: 1/(k
+//! A_i) for the penalty law, 0 for exact contact. The problem is the optimality condition of a convex quadratic
+//! programme, so rotation and gaps are unique.
 
 mod active_set_fallback;
 mod cholesky;
@@ -28,7 +29,7 @@ pub(crate) use proximal::LAST_COMPLIANCE;
 pub use proximal::solve;
 pub(crate) use slices::solve_slices;
 
-/// Law of a contact point's resistance to penetration.
+/// Resistance of a contact point to penetration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
     /// No penetration.
@@ -37,72 +38,73 @@ pub enum Law {
     Penalty(f64),
 }
 
-/// Elastic bodies with a linear answer to contact forces.
+/// Elastic bodies that respond linearly to contact forces.
 pub trait LinearContact {
-    /// Forces and rotation with `g_i = 0` on the active rows alone (sign of the forces unchecked), and the
+    /// Forces and rotation with `g_i = 0` on the active rows only (the sign of the forces is not checked), and the
     /// elastic openings o_i at all rows.
     ///
     /// # Errors
-    /// [`ContactError`] when the equations have no unique answer.
+    /// [`ContactError`] if the equations have no unique solution.
     fn solve(&mut self, active: &[usize], problem: &Problem) -> Result<Equality, ContactError>;
 
     /// Compliance of a typical row under its own force, mm/N.
     ///
     /// # Errors
-    /// [`ContactError`] when the elastic model fails.
+    /// [`ContactError`] if the elastic model fails.
     fn self_compliance(&mut self) -> Result<f64, ContactError>;
 
-    /// Displacements of both bodies' boundary nodes, three a node, mm, under the given row forces: those of the last
-    /// answer of [`LinearContact::solve`].
+    /// Displacements of both bodies' boundary nodes, three per node, mm, under the given row forces. These must be the
+    /// forces of the last solution of [`LinearContact::solve`].
     fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2];
 }
 
-/// Data of the complementarity problem, one entry a row.
+/// Data of the complementarity problem, one entry per row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// g0, mm.
+    /// Undeformed gaps g0, mm.
     pub gaps: Vec<f64>,
-    /// l, mm.
+    /// Levers l, mm.
     pub levers: Vec<f64>,
-    /// Moment of a unit normal force, friction included, mm: l without friction.
+    /// Moment per unit normal force, friction included, mm; equal to l without friction.
     pub torque_levers: Vec<f64>,
-    /// d, mm/N.
+    /// Local compliance d, mm/N.
     pub compliance: Vec<f64>,
-    /// M, N mm.
+    /// Moment M, N mm.
     pub moment: f64,
-    /// Whether the bodies stand still: dtheta is 0 and M is not looked at.
+    /// Whether the bodies do not move: then dtheta is 0 and M is ignored.
     pub held: bool,
 }
 
-/// Answer of the equality problem on an active set.
+/// Solution of the equality problem on an active set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equality {
     /// Forces of the active rows, N.
     pub forces: Vec<f64>,
-    /// dtheta, rad.
+    /// Rotation dtheta, rad.
     pub rotation: f64,
     /// Elastic openings o_i of all rows, mm.
     pub openings: Vec<f64>,
-    /// -dM/dtheta on this active set, N mm/rad: the tangent torsional stiffness of the mesh.
+    /// Tangent torsional stiffness of the mesh on this active set, -dM/dtheta, N mm/rad.
     pub stiffness: f64,
 }
 
-/// Solved contact.
+/// Solution of the contact problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// Force of every row, N, >= 0.
     pub forces: Vec<f64>,
     /// Rows that carry force, ascending.
     pub active: Vec<usize>,
-    /// dtheta, rad.
+    /// Rotation dtheta, rad.
     pub rotation: f64,
     /// Elastic opening of every row, mm.
     pub openings: Vec<f64>,
-    /// -dM/dtheta, N mm/rad.
+    /// Torsional stiffness -dM/dtheta, N mm/rad.
     pub stiffness: f64,
-    /// Active-set iterations.
+    /// Number of active-set iterations.
     pub iterations: usize,
-    /// Largest violation of the conditions: gap in mm over the largest approach, negative force over the largest force.
+    /// Largest violation of the contact conditions: gap over the largest approach, negative force over the largest
+    /// force.
     pub residual: f64,
 }
 

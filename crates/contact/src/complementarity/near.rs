@@ -1,11 +1,11 @@
-//! Contact whose gaps have changed by little: Newton's method with the factor of an earlier tangent (modified Newton).
+//! Contact after a small change of the gaps: Newton's method with the factor of an earlier tangent (modified Newton).
 //!
 //! ```text
 //! F <- F - (S + diag delta'_0)^-1 (g0 + l dtheta + S F + delta(F)),   dtheta such that the moment is balanced
 //! ```
-//! Each step reduces the error by the relative change of the local slopes since the tangent was factored, to some
-//! thousandths. Convergence is checked by the conditions of any solution. Where it fails, or where rows become active
-//! or inactive, full Newton steps go on from there.
+//! Each step reduces the error by a factor of some thousandths: the relative change of the local slopes since the
+//! tangent was factored. Convergence is checked with the same contact conditions as any solution. If it fails, or if
+//! rows enter or leave the active set, full Newton steps continue from there.
 
 use super::{Balance, DenseProblem, DenseSolver, LocalApproach, TOLERANCE, opening::Opening, pivots::PIVOT_TOLERANCE};
 use crate::{ContactError, lanes};
@@ -31,7 +31,7 @@ const STIFFNESS_ACCURACY: f64 = 1e-10;
 const SLOW: f64 = 0.25;
 
 impl SavedSolution {
-    /// Size, bytes.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         let doubles = [&self.forces, &self.openings, &self.approach, &self.slopes, &self.factor];
         doubles.iter().map(|list| list.len() * size_of::<f64>()).sum()
@@ -103,9 +103,9 @@ impl DenseSolver {
         self.open(problem);
     }
 
-    /// Solves the contact of the same rows after a small motion, from the last solution and with its factor; whether
-    /// that led to a solution, without rows becoming active or inactive. The stiffness is that of the factor until
-    /// `refine_stiffness`.
+    /// Solves the contact of the same rows after a small motion, starting from the last solution with its factor.
+    /// Returns whether this gave a solution with an unchanged active set. The stiffness is that of the old factor until
+    /// `refine_stiffness` is called.
     pub fn solve_moved(&mut self, problem: &DenseProblem<'_>, local: impl LocalApproach) -> bool {
         if self.active.is_empty() || self.forces.len() != problem.gaps.len() || !self.factored {
             return false;

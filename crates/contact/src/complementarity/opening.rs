@@ -1,4 +1,4 @@
-//! What forces open rows by.
+//! Openings of rows by forces.
 
 use faer::MatRef;
 use pulp::{Simd, WithSimd};

@@ -1,4 +1,4 @@
-//! Active set, the rows that press: block principal pivoting, and single steps that cannot cycle.
+//! Finds the active set, the rows in contact: block principal pivoting, and single steps that cannot cycle.
 
 use super::{Equality, LinearContact, Problem};
 use crate::ContactError;

@@ -1,4 +1,4 @@
-//! Points that press on a mesh: forces that need not be unique, by proximal continuation. Theory (19).
+//! Points in contact on a mesh, whose forces need not be unique, by proximal continuation. Theory (19).
 
 use super::{
     Balance, Law, LinearContact, Problem, Solution, TOLERANCE, driven_rows, exact_residual, finish, pivots::pivot,
@@ -46,13 +46,13 @@ fn about(problem: &mut Problem, rows: &[ContactRow], compliance: f64, forces: &[
     }
 }
 
-/// Solves the contact of `rows`; `balance` is about the axis of body number `body`.
+/// Solves the contact of `rows`; `balance` acts about the axis of body number `body`.
 ///
-/// Block principal pivoting (all violated points change at once); where that stops making progress, the primal
-/// active-set method, which ends because every step lowers the energy. Exact contact with more points than nodes has no
-/// unique forces and no regular matrix; the proximal-point method (a local compliance about the forces of the step
-/// before, smaller from step to step) converges to zero penetration all the same. `start`: forces of an earlier
-/// solution at these rows, or zeros.
+/// The method is block principal pivoting: all violated points change at once. If it stops making progress, the primal
+/// active-set method takes over; it terminates because every step lowers the energy. Exact contact with more points
+/// than nodes has no unique forces and a singular matrix. The proximal-point method (a local compliance about the
+/// forces of the preceding step, smaller from step to step) still converges to zero penetration. `start` has the forces
+/// of an earlier solution at these rows, or zeros.
 ///
 /// # Errors
 /// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`].

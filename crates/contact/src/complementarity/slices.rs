@@ -1,4 +1,4 @@
-//! Slices: rows with a compliance of their own, not linear in the force.
+//! Slices: rows with a local compliance of their own, nonlinear in the force.
 
 use super::{Balance, LinearContact, Problem, Solution, TOLERANCE, driven_rows, exact_residual, finish, pivots::pivot};
 use crate::{ContactError, nodal::ContactRow};

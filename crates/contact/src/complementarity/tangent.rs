@@ -1,17 +1,17 @@
-//! Tangent: change of contact forces with the motion of the bodies.
+//! Tangent: derivative of contact forces by the motion of the bodies.
 
 use faer::{MatMut, Par, linalg::triangular_solve};
 
 use super::{DenseSolver, dense::RIGID};
 
 impl DenseSolver {
-    /// How forces and moments on two rigid bodies follow their motion, active rows alone.
+    /// Derivative of forces and moments on two rigid bodies by their motion, with the active rows only.
     ///
     /// ```text
     /// T = -J_t' (S + diag delta')^-1 J
     /// ```
-    /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal
-    /// without friction).
+    /// `row(i)` gives J, the opening of gap i per unit of each of the twelve coordinates, and J_t, the work of a unit
+    /// normal force along them (equal without friction).
     pub fn tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
         let mut flat = [0.0; RIGID * RIGID];
         let fill = |i: usize, opening: &mut [f64], load: &mut [f64]| {

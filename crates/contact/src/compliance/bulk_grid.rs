@@ -23,7 +23,7 @@ const COARSEST: [usize; 2] = [4, 8];
 const SAME: f64 = 0.05;
 
 impl FlankGridLines {
-    /// Cells that are the faces of the mesh, where these form a grid.
+    /// A grid whose cells are the faces of the mesh, if these form a grid.
     pub fn of_faces(patch: &FlankPatch) -> Option<Self> {
         let mut ends = [Vec::new(), Vec::new()];
         for face in 0..patch.face_count() {
@@ -39,7 +39,7 @@ impl FlankGridLines {
         (cells[0] > 0 && cells[0] * cells[1] == patch.face_count()).then_some(Self { ends })
     }
 
-    /// Equal cells, twice as many either way with each refinement.
+    /// A grid of equal cells; each refinement doubles their number in both directions.
     pub fn uniform(patch: &FlankPatch, refinement: usize) -> Self {
         let [low, high] = patch.range();
         let ends = [0, 1].map(|k| {
@@ -49,18 +49,19 @@ impl FlankGridLines {
         Self { ends }
     }
 
-    /// So many equal cells along the face from `low` to `high` (mm), those along the profile as they are.
+    /// The same grid with `cells` equal cells along the face from `low` to `high` (mm); the cells along the profile
+    /// stay the same.
     pub fn along_face(&self, cells: usize, [low, high]: [f64; 2]) -> Self {
         let face = (0..=cells).map(|i| low + (high - low) * i as f64 / cells as f64).collect();
         Self { ends: [self.ends[0].clone(), face] }
     }
 
-    /// Cells along the face.
+    /// Number of cells along the face.
     pub fn face_cells(&self) -> usize {
         self.ends[1].len() - 1
     }
 
-    /// Lines of points along the profile (0) or the face (1).
+    /// Number of lines of points along the profile (0) or the face (1).
     pub fn lines(&self, axis: usize) -> usize {
         [PROFILE.len() - 1, FACE.len() - 1][axis] * (self.ends[axis].len() - 1) + 1
     }
@@ -83,8 +84,8 @@ impl FlankGridLines {
         })
     }
 
-    /// Points around a place, three rows of four along the profile, and their weights; past the ends of the flank those
-    /// of the end. Of each row the first point: the others follow it.
+    /// Points around a position, three rows of four along the profile, and their weights. Beyond the ends of the flank
+    /// they are those of the end. Only the first point of each row is given: the others follow it.
     #[inline]
     pub fn weights(&self, at: [f64; 2]) -> ([usize; FACE.len()], [[f64; PROFILE.len()]; FACE.len()]) {
         let ((i, u, _), (j, v, _)) = (self.cell(0, at[0]), self.cell(1, at[1]));
@@ -97,7 +98,7 @@ impl FlankGridLines {
         (rows, of_face.map(|z| of_profile.map(|u| u * z)))
     }
 
-    /// Derivatives of the weights of [`Self::weights`] by either coordinate; 0 past the ends of the flank.
+    /// Derivatives of the weights of [`Self::weights`] by either coordinate; 0 beyond the ends of the flank.
     pub fn weight_slopes(&self, at: [f64; 2]) -> [[[f64; PROFILE.len()]; FACE.len()]; 2] {
         let ((_, u, per_u), (_, v, per_v)) = (self.cell(0, at[0]), self.cell(1, at[1]));
         let [ends, inner] = PROFILE_SCALES;

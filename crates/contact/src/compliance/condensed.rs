@@ -1,4 +1,4 @@
-//! Two elastic bodies known by the compliance of their boundary nodes. Theory (18).
+//! Two elastic bodies given by the compliance of their boundary nodes. Theory (18).
 
 use faer::{Mat, MatRef, Side, linalg::solvers::Solve};
 
@@ -8,15 +8,15 @@ use crate::{
     nodal::{ContactRow, Support},
 };
 
-/// Compliance of both bodies seen from the contact rows.
+/// Compliance of both bodies between the contact rows.
 ///
 /// ```text
 /// o_i = sum_j C_ij F_j,   C = sum over both bodies of A C_b A' + X
 /// ```
-/// X (mm/N) a correction between rows, if there is one: what slices take away of the bodies' own compliance.
+/// X (mm/N) is an optional correction between rows: for slices it removes a part of the bodies' own compliance.
 ///
-/// C_b (mm/N) is the body's boundary compliance (3 n x 3 n, node by node x, y, z), A the rows' supports. Columns
-/// C_b A'_j are made when a row first becomes active and kept.
+/// C_b (mm/N) is the body's boundary compliance (3 n x 3 n, node by node x, y, z), A are the supports of the rows. A
+/// column C_b A'_j is computed when its row first becomes active, and is kept.
 #[derive(Debug)]
 pub struct Condensed<'a> {
     rows: &'a [ContactRow],
@@ -26,12 +26,12 @@ pub struct Condensed<'a> {
 }
 
 impl<'a> Condensed<'a> {
-    /// The bodies' boundary compliances, and the rows they touch at.
+    /// Takes the bodies' boundary compliances and the contact rows.
     pub fn new(rows: &'a [ContactRow], compliance: [MatRef<'a, f64>; 2]) -> Self {
         Self { rows, compliance, columns: vec![[None, None]; rows.len()], correction: None }
     }
 
-    /// Compliance with a correction X between rows, mm/N, symmetric.
+    /// Adds a symmetric correction X between rows, mm/N.
     #[must_use]
     pub fn corrected(self, correction: Option<Mat<f64>>) -> Self {
         Self { correction, ..self }
@@ -74,7 +74,7 @@ impl<'a> Condensed<'a> {
     }
 }
 
-/// Opening of a row by boundary displacements `u` (3 a node), mm.
+/// Opening of a row by boundary displacements `u` (three per node), mm.
 pub fn opening(support: &Support, u: &[f64]) -> f64 {
     let d = support.direction;
     (0..support.count)

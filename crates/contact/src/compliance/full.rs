@@ -1,4 +1,4 @@
-//! Contact with all degrees of freedom of both gears kept.
+//! Contact between two gears with all their degrees of freedom.
 
 use crate::{
     ContactError,

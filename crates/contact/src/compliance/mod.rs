@@ -1,5 +1,5 @@
-//! How rows of contact deform both gears: from condensed matrices, from tables of these, with all degrees of freedom,
-//! with normal modes beside.
+//! Deformation of both gears by contact rows: from condensed matrices, from tables of them, with all degrees of
+//! freedom, or with additional normal modes.
 
 mod bulk_grid;
 mod bulk_table;

@@ -1,4 +1,4 @@
-//! Normal modes of both gears as the slices of a window see them. Theory (61).
+//! Normal modes of both gears on the slices of a window. Theory (61).
 
 use faer::Mat;
 use reduction::{ElasticGear, GearModes};
@@ -11,8 +11,8 @@ use crate::{ContactError, ContactSet, TablePoint, complementarity::DenseSolver, 
 /// g_i = g0_i + H_i q + sum_j R_ij F_j + delta_i(F_i),   R = S - H Omega^-2 H_t',   H = A Phi_B
 /// forces on the modes: H_t' F
 /// ```
-/// S the slices' compliance: what the kept modes share of it answers with their inertia, the rest at once. H_t: as
-/// loads, friction included.
+/// S is the compliance of the slices: the share of the kept modes responds with their inertia, the rest statically. H_t
+/// is H for loads, friction included.
 #[derive(Debug)]
 pub struct ModalFlanks {
     /// Modes of either gear.
@@ -54,14 +54,14 @@ impl ModalRows {
     }
 }
 
-/// Forces on the modes, and how they and those on the rigid bodies follow all coordinates.
+/// Forces on the modes, and the derivatives of these and of the forces on the rigid bodies by all coordinates.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ModalForces {
     /// H' F, mm N / (mm t^(1/2)).
     pub normal: Vec<f64>,
     /// (H_t - H)' F.
     pub friction: Vec<f64>,
-    /// df/dq, (12 + m) x (12 + m), row by row: rigid coordinates, then modes of pinion and wheel.
+    /// Tangent df/dq, (12 + m) x (12 + m), row by row: rigid coordinates, then modes of pinion and wheel.
     pub tangent: Vec<f64>,
 }
 
@@ -75,7 +75,7 @@ enum Shapes {
 }
 
 impl ModalFlanks {
-    /// The modes on the flanks of a window.
+    /// Takes the modes to the flanks of a window.
     ///
     /// # Errors
     /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::ModesOnFullGear`] for gears with all
@@ -115,25 +115,25 @@ impl ModalFlanks {
         self.flexibility.len()
     }
 
-    /// Sets q.
+    /// Sets the amplitudes q.
     pub fn deform(&mut self, amplitudes: &[f64]) {
         self.amplitudes.copy_from_slice(amplitudes);
         let (first, second) = amplitudes.split_at(self.counts[0]);
         self.largest = self.shapes[0].largest(first) + self.shapes[1].largest(second);
     }
 
-    /// Largest opening or closing of a gap by q, mm.
+    /// Largest change of a gap by q, either sign, mm.
     pub fn largest(&self) -> f64 {
         self.largest
     }
 
-    /// q.
+    /// The amplitudes q.
     pub fn amplitudes(&self) -> &[f64] {
         &self.amplitudes
     }
 
-    /// Largest normal displacement of a flank by one unit of each mode; a mode that leaves the flanks of this window
-    /// where they are counts as one that moves them by a tenth of what the others do.
+    /// Largest normal displacement of a flank per unit of each mode. A mode that does not move the flanks of this
+    /// window gets a tenth of the value of the others.
     pub fn sizes(&self) -> &[f64] {
         &self.sizes
     }
@@ -240,7 +240,7 @@ impl ModalFlanks {
         self.forces.tangent.extend_from_slice(tangent);
     }
 
-    /// Forces on the modes of the last solution.
+    /// Forces on the modes in the last solution.
     pub fn forces(&self) -> &ModalForces {
         &self.forces
     }

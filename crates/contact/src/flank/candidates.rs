@@ -1,4 +1,4 @@
-//! Stage 1, surface against surface: which faces of two flanks may touch.
+//! Stage 1, surface against surface: finds faces of two flanks that may touch.
 
 use parry3d_f64::{
     bounding_volume::{Aabb, BoundingVolume},
@@ -17,7 +17,8 @@ pub struct FacePair {
     pub second: (usize, usize),
 }
 
-/// Bounding-volume trees over the flank faces of one body, in its own frame; built once, moved by pose.
+/// Trees of bounding volumes over the flank faces of one body, in its own frame. They are built once and moved by the
+/// pose.
 #[derive(Debug)]
 pub struct Candidates {
     boxes: Vec<Aabb>,
@@ -40,8 +41,8 @@ impl Candidates {
         Self { boxes, owners, tree }
     }
 
-    /// Pairs of faces whose boxes come within `reach` (mm) of each other, ascending; poses map own frames to the common
-    /// one. Conservative: a pair that is left out is farther apart than `reach`.
+    /// Pairs of faces whose boxes are within `reach` (mm) of each other, ascending; poses map own frames to the common
+    /// one. Conservative: a pair that is not listed is farther apart than `reach`.
     pub fn pairs(&self, pose: &Pose, other: &Self, other_pose: &Pose, reach: f64) -> Vec<FacePair> {
         let relative = to_parry(&(pose.inverse() * other_pose));
         let near = |a: &Aabb, b: &Aabb| a.loosened(reach).intersects(&b.transform_by(&relative));

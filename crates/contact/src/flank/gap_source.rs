@@ -6,6 +6,6 @@ pub enum GapSource {
     /// The smooth flanks.
     #[default]
     Smooth,
-    /// The finite-element faces as they are: shows the facet error h^2 / (8 rho); for study only.
+    /// The finite-element faces themselves. This shows the facet error h^2 / (8 rho) and is for study only.
     Facet,
 }

@@ -1,4 +1,4 @@
-//! Coarse grids over the flanks of a gear, for a mesh whose own flank nodes are too many.
+//! Coarse grids over the flanks of a gear whose mesh has too many flank nodes.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,14 @@ use reduction::{FlankGrid, FlankGrids};
 
 use crate::{ContactError, flank::FlankPatch};
 
-/// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) as
-/// for flank patches.
+/// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) is
+/// that of flank patches.
 ///
-/// A grid node's load is shared among the mesh nodes of the face it lies on by that face's shape functions.
+/// The load on a grid node is distributed to the mesh nodes of the face on which it lies, by that face's shape
+/// functions.
 ///
 /// # Errors
-/// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] when it does not lie on
+/// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] if it does not lie on
 /// its smooth surface.
 pub fn flank_grids(
     gear: &MeshedGear,

@@ -1,4 +1,4 @@
-//! Flanks: their smooth surface, the mesh over it, points on it, and which faces of two flanks may touch.
+//! Flanks: their smooth surface, their mesh, points on them, and faces of two flanks that may touch.
 
 mod candidates;
 mod gap_source;

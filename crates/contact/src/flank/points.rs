@@ -10,22 +10,23 @@ use crate::{
 /// One contact point of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
-    /// Place of the point on the faces.
+    /// Position of the point on the faces.
     pub at: FacePoint,
     /// Surface coordinates.
     pub coordinates: [f64; 2],
     /// Position in the body's own frame, mm: on the smooth surface, or on the facet.
     pub position: Vec3,
-    /// Area it stands for, mm^2.
+    /// Area that the point represents, mm^2.
     pub area: f64,
 }
 
-/// Gauss points of every face, `per_edge` x `per_edge` a face, face by face.
+/// Gauss points of all faces, `per_edge` x `per_edge` per face, face by face.
 ///
-/// Every weight is positive, and a uniform pressure gives consistent nodal forces from 2 (linear) or 3 (quadratic
-/// faces) points an edge on. 6 do in every case: a band narrower than an element is then seen by several points, and on
-/// faces finer than the band the nodal pressure converges to Hertz's (`crates/contact/tests/contact_laws/hertz.rs`). A single
-/// point a face leaves the alternating pressure free: 20 to 40 % off there, at any refinement.
+/// All weights are positive. A uniform pressure gives consistent nodal forces if there are at least 2 (linear) or 3
+/// (quadratic faces) points per edge; 6 are sufficient in every case. A band narrower than an element then contains
+/// several points, and on faces finer than the band the nodal pressure converges to Hertz's
+/// (`crates/contact/tests/contact_laws/hertz.rs`). A single point per face does not determine the alternating pressure:
+/// it is 20 to 40 % off, at any refinement.
 pub fn contact_points(patch: &FlankPatch, per_edge: usize, source: GapSource) -> Vec<ContactPoint> {
     let gauss = gauss_legendre(per_edge.max(1));
     let mut points = Vec::with_capacity(patch.face_count() * gauss.len() * gauss.len());

@@ -1,11 +1,11 @@
-//! Smooth surfaces that contact is measured against.
+//! Smooth surfaces of bodies in contact.
 
 use crate::Vec3;
 
 /// Foot point on a smooth surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
-    /// Surface coordinates of the foot.
+    /// Surface coordinates of the foot point.
     pub at: [f64; 2],
     /// Signed distance of the point from the surface, mm; positive outside the material. If the surface has a
     /// [`Surface::depth`], it is the distance from the nominal surface plus the depth at the foot point.
@@ -16,7 +16,7 @@ pub struct Foot {
 pub trait Surface: Send + Sync + std::fmt::Debug {
     /// Point at surface coordinates, mm.
     fn point(&self, at: [f64; 2]) -> Vec3;
-    /// Unit normal out of the material.
+    /// Unit normal, pointing out of the material.
     fn normal(&self, at: [f64; 2]) -> Vec3;
     /// Derivative of the point by the first surface coordinate.
     fn profile_tangent(&self, at: [f64; 2]) -> Vec3;
@@ -24,20 +24,20 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn point_and_profile(&self, at: [f64; 2]) -> [Vec3; 2] {
         [self.point(at), self.profile_tangent(at)]
     }
-    /// [`Surface::locate`] and the unit normal at the foot.
+    /// [`Surface::locate`] and the unit normal at the foot point.
     fn locate_with_normal(&self, p: &Vec3) -> Option<(Foot, Vec3)> {
         self.locate(p).map(|foot| (foot, self.normal(foot.at)))
     }
     /// Curvature across the contact line, 1/mm; convex positive.
     fn curvature(&self, at: [f64; 2]) -> f64;
-    /// Foot point of `p`; `None` where there is none.
+    /// Foot point of `p`; `None` if there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
-    /// How far the surface lies below the nominal one, mm, along the nominal normal. Meshes are made of the nominal
-    /// surface: their nodes lie on it and not on this one.
+    /// Depth of the surface below the nominal one, mm, along the nominal normal. Meshes are made from the nominal
+    /// surface, so their nodes lie on it and not on this surface.
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
-    /// [`Surface::depth`] at places, their first and their second surface coordinates, mm.
+    /// [`Surface::depth`] at several points, given by their first and second surface coordinates, mm.
     fn depths(&self, [first, second]: [&[f64]; 2], depths: &mut [f64]) {
         depths.iter_mut().zip(first).zip(second).for_each(|((depth, &u), &z)| *depth = self.depth([u, z]));
     }
@@ -45,43 +45,44 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn locate_nominal(&self, p: &Vec3) -> Option<Foot> {
         self.locate(p)
     }
-    /// Unit normal and unit direction of the profile of the nominal surface, without micro-geometry: smooth wherever
-    /// that has kinks.
+    /// Unit normal and unit profile direction of the nominal surface, without micro-geometry. They are smooth even
+    /// where the micro-geometry has kinks.
     fn nominal_frame(&self, at: [f64; 2]) -> [Vec3; 2] {
         let (normal, profile) = (self.normal(at), self.profile_tangent(at));
         let along = profile - normal * normal.dot(&profile);
         [normal, along / along.norm().max(f64::MIN_POSITIVE)]
     }
-    /// Whether every profile is one smooth convex arc: the gap to another such profile then has a single least place,
-    /// and any search that goes downhill finds it.
+    /// Whether every profile is one smooth convex arc. Then the gap to another such profile has a single minimum, and
+    /// any descent method finds it.
     fn is_single_arc(&self) -> bool {
         false
     }
-    /// The involute helicoid that [`Surface::depth`] is ground off from; `None` for other surfaces.
+    /// The involute helicoid from which [`Surface::depth`] is measured; `None` for other surfaces.
     fn nominal_flank(&self) -> Option<&geometry::Flank> {
         None
     }
-    /// The flank with its micro-geometry; `None` of other surfaces.
+    /// The flank with its micro-geometry; `None` for other surfaces.
     fn modified_flank(&self) -> Option<&geometry::ModifiedFlank> {
         None
     }
-    /// Least [`Surface::depth`] over the flank, mm, to some hundredths of its size.
+    /// Smallest [`Surface::depth`] over the flank, mm, accurate to some hundredths of its magnitude.
     fn least_depth(&self) -> f64 {
         0.0
     }
-    /// Least [`Surface::depth`] at a height, mm, to some hundredths of its size.
+    /// Smallest [`Surface::depth`] at a height, mm, accurate to some hundredths of its magnitude.
     fn least_depth_at(&self, _z: f64) -> f64 {
         self.least_depth()
     }
-    /// Roll angles at which the profiles have kinks of [`Surface::depth`].
+    /// Roll angles at which [`Surface::depth`] has kinks along the profile.
     fn kinks(&self) -> [Option<f64>; 2] {
         [None; 2]
     }
-    /// What the flank lies below this surface at surface coordinates, mm: of a measured flank what its smooth part leaves.
+    /// Depth of the measured flank below this surface at surface coordinates, mm: the deviation of a measured flank
+    /// from its smooth part.
     fn deviation(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
-    /// Largest [`Surface::deviation`] either way, mm.
+    /// Largest magnitude of [`Surface::deviation`], mm.
     fn largest_deviation(&self) -> f64 {
         0.0
     }
@@ -89,7 +90,7 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn along_profile(&self, at: [f64; 2], distance: f64) -> f64 {
         at[0] + distance / self.profile_tangent(at).norm()
     }
-    /// Half of a usual band of contact, mm, as which curvatures of [`Surface::depth`] are seen; 0 without depth.
+    /// Half of a typical contact band, mm, over which curvatures of [`Surface::depth`] are averaged; 0 without depth.
     fn band(&self) -> f64 {
         0.0
     }

@@ -5,12 +5,12 @@ use crate::bracketing::last_inside;
 /// Bisections to an end of contact: to a 10^4th of a step.
 const END_BISECTIONS: usize = 14;
 
-/// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` (mm), the least deformed gap at
-/// height z, is at most `tolerance`.
+/// Axial intervals [from, to], mm, over which a tooth pair is in contact: where `gap(z)` (mm), the smallest deformed
+/// gap at height z, is at most `tolerance`.
 ///
-/// `samples` equally spaced stations of `range` tell where contact begins and ends; each end is then bisected to a
-/// 10^4th of a step, so the length is continuous in the position of the gears. A stretch of contact shorter than a step
-/// can be missed.
+/// The ends of contact are located between `samples` equally spaced stations of `range`. Each end is then bisected to a
+/// 10^4th of a step, so the length is a continuous function of the position of the gears. An interval of contact
+/// shorter than a step can be missed.
 pub fn contact_intervals(gap: impl Fn(f64) -> f64, range: [f64; 2], samples: usize, tolerance: f64) -> Vec<[f64; 2]> {
     let touches = |z: f64| gap(z) <= tolerance;
     let step = (range[1] - range[0]) / (samples.max(2) - 1) as f64;
@@ -36,7 +36,7 @@ pub fn contact_intervals(gap: impl Fn(f64) -> f64, range: [f64; 2], samples: usi
     intervals
 }
 
-/// Length of the part of the intervals that lies in `range`, in the unit of z.
+/// Length of the part of the intervals within `range`, in the unit of z.
 pub fn covered(intervals: &[[f64; 2]], range: [f64; 2]) -> f64 {
     intervals.iter().map(|i| (i[1].min(range[1]) - i[0].max(range[0])).max(0.0)).sum()
 }

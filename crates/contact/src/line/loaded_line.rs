@@ -1,14 +1,15 @@
-//! Where the loaded parts of a line of slices begin and end, between its stations. Theory (21b).
+//! Ends of the loaded parts of a line of slices, between its stations. Theory (21b).
 
 use crate::bracketing::bracket_zero_within;
 
-/// A station of a contact line as the solved contact left it.
+/// State of a station of a contact line in the solved contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineStation {
-    /// Gap under load without the local approach, mm: what the flanks overlap by where the station presses (below 0),
-    /// what is left open where it does not.
+    /// Gap under load without the local approach, mm: the overlap of the flanks (negative) if the station is in
+    /// contact, otherwise the remaining gap.
     pub gap: f64,
-    /// What of it is not the undeformed flanks' own gap, mm: the bulk's deflection, smooth along the line.
+    /// Part of this gap that is not the gap of the undeformed flanks, mm: the bulk deflection, which is smooth along
+    /// the line.
     pub opened: f64,
 }
 
@@ -19,20 +20,20 @@ const BASE: usize = 3;
 /// How many stations away they may lie.
 const AROUND: usize = 4;
 
-/// Intervals [from, to] of height z, mm, over which a tooth pair is pressed, ascending.
+/// Intervals [from, to] of height z, mm, over which a tooth pair is in contact, ascending.
 ///
 /// ```text
 /// w(z) = g(z) + o(z) < 0
 /// ```
-/// g: gap of the undeformed flanks at the loaded pose, exact at every z (`gap(i, z)` with station `i` the next one to
-/// z; infinite where they do not face each other); o: [`LineStation::opened`], a parabola through the next three
-/// stations. At the stations w is what the solution has, so the ends are those of the very line whose load the slices
-/// carry, and they move on smoothly while the stations stay. A line that has reached no station yet is found at an end
-/// face, or between three stations that are about to touch. Where no station near an end face was looked at, as under
-/// hardly any load, `unsolved(i, z)` tells o there.
+/// g is the gap of the undeformed flanks at the loaded pose, exact at every z (`gap(i, z)`, where station `i` is the
+/// nearest to z; infinite where the flanks do not face each other). o is [`LineStation::opened`], a parabola through
+/// the three nearest stations. At the stations w equals the solution, so the ends belong to the line whose load the
+/// slices carry, and they move smoothly while the stations stay fixed. A line that has not yet reached a station is
+/// found at an end face, or between three stations that are about to touch. If no station near an end face was
+/// evaluated, as under very small load, `unsolved(i, z)` gives o there.
 ///
-/// `stations` (mm) are evenly spaced, ascending, half a step inside of the ends `face` of the common face; `solved` has `None` for
-/// stations that are too far apart to have been looked at.
+/// `stations` (mm) are evenly spaced, ascending, and start half a step inside the ends `face` of the common face.
+/// `solved` has `None` for stations that are too far apart to have been evaluated.
 pub fn loaded_intervals(
     stations: &[f64],
     solved: &[Option<LineStation>],

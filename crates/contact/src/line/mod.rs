@@ -1,4 +1,4 @@
-//! The contact line: where it begins and ends, how hard it is pressed.
+//! The contact line: its ends and its pressure.
 
 pub mod hertz;
 mod line_length;

@@ -1,5 +1,4 @@
-//! The contact line of a pair: where it touches, how hard it is pressed, and whether a pair outside the window would
-//! touch.
+//! The contact line of a pair: where it touches, its pressure, and whether a pair outside the window would touch.
 
 use ale::{Station, ToothWindow};
 use geometry::{GearPair, ModifiedFlank};
@@ -23,10 +22,11 @@ const TOUCHING: f64 = 0.15;
 /// and only over more than an element do their forces add up to a line load.
 const BIN_ELEMENTS: f64 = 1.5;
 
-/// Largest Hertzian pressure along the line of a pair, MPa, from the line load in axial bins.
+/// Largest Hertzian pressure along the contact line of a pair, MPa, from the line load in axial bins.
 ///
-/// The forces of single points are not unique where points outnumber nodes, their sums on the nodes are: each node's
-/// force is spread over one element of face width about it, and bins of `BIN_ELEMENTS` elements take their share.
+/// The forces of single points are not unique if there are more points than nodes, but their sums on the nodes are
+/// unique. Each node's force is distributed over one element of face width around it, and bins of `BIN_ELEMENTS`
+/// elements take their share.
 pub fn line_pressure(
     pair: &GearPair,
     patch: &FlankPatch,
@@ -74,9 +74,9 @@ fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
     rho * (length - rho) / (length * pair.base_helix_angle().cos())
 }
 
-/// Axial intervals over which a pair of patches touches, by the deformed gap where the undeformed flanks at the loaded
-/// pose are nearest. `displacements` are those of both gears' boundary coordinates, mm; `approach` that of the flanks
-/// under load, mm; `face` the common face, mm.
+/// Axial intervals over which a pair of patches is in contact, from the deformed gap at the points where the undeformed
+/// flanks at the loaded pose are nearest. `displacements` are those of both gears' boundary coordinates, mm; `approach`
+/// is that of the flanks under load, mm; `face` is the common face, mm.
 pub fn nodal_contact_line(
     set: &ContactSet,
     options: &ContactOptions,
@@ -102,9 +102,9 @@ pub fn nodal_contact_line(
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * approach)
 }
 
-/// Axial intervals over which a pair of patches touches, from slices. `opened` is the part of a row's gap under load
-/// that is not the undeformed flanks' own ([`LineStation`]); beside it stands the row's roll angle on body 1.
-/// `displacements` are those of both gears' boundary coordinates, mm, requested where no row is near.
+/// Axial intervals over which a pair of patches is in contact, from slices. `opened` is the part of a row's gap under
+/// load that is not that of the undeformed flanks ([`LineStation`]), together with the row's roll angle on body 1.
+/// `displacements` are those of both gears' boundary coordinates, mm; they are requested where no row is near.
 pub fn slice_line(
     set: &ContactSet,
     poses: &[Pose; 2],
@@ -146,8 +146,9 @@ pub fn slice_line(
     loaded_intervals(stations, &solved, face, gap, unsolved)
 }
 
-/// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included,
-/// which its force makes; `approach` (mm) is that, 0 without a force. `other`: what opens it besides, mm.
+/// State of a station whose row has the undeformed gap `gap` (mm) and the total opening `opening`. `opening` includes
+/// the local approach `approach` (mm), which the row's force causes; 0 without a force. `other` is any further opening,
+/// mm.
 pub fn line_station(gap: f64, opening: f64, approach: f64, other: f64) -> LineStation {
     if approach > 0.0 {
         LineStation { gap: -approach, opened: opening + other - approach }
@@ -156,30 +157,30 @@ pub fn line_station(gap: f64, opening: f64, approach: f64, other: f64) -> LineSt
     }
 }
 
-/// A window at given poses, for a look at the pairs beside it.
+/// A window at given poses, to check the pairs next to it.
 #[derive(Debug, Clone, Copy)]
 pub struct NeighbourPairs<'a> {
-    /// The pair.
+    /// The gear pair.
     pub pair: &'a GearPair,
-    /// Flanks and offsets.
+    /// Options with flanks and offsets.
     pub options: &'a ContactOptions,
     /// Flanks of the window.
     pub set: &'a ContactSet,
-    /// The window.
+    /// The pairs in the window.
     pub window: &'a ToothWindow,
     /// Station of the pair in the mesh cycle.
     pub station: Station,
-    /// Frames of the matrices of both gears.
+    /// Poses of the frames of both gears' matrices.
     pub poses: &'a [Pose; 2],
 }
 
 impl NeighbourPairs<'_> {
-    /// Least gap of the two pairs beside the window, mm, undeformed.
+    /// Smallest undeformed gap of the two pairs next to the window, mm.
     pub fn least_gap(&self) -> f64 {
         self.window.neighbours().into_iter().map(|running| self.gap(running)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Least gap of a pair that the window does not hold, mm, undeformed smooth flanks at the loaded pose.
+    /// Smallest gap of a pair outside the window, mm, for undeformed smooth flanks at the loaded pose.
     pub fn gap(&self, running: i64) -> f64 {
         outside_gap(self, running)
     }
@@ -197,8 +198,8 @@ fn outside_gap(neighbours: &NeighbourPairs<'_>, running: i64) -> f64 {
     rigid_gap(pair, options, station, running, [&flank1, &flank2], poses)
 }
 
-/// Least gap (mm) over the common face of the pair of a running number, of undeformed smooth `flanks` of pinion and
-/// wheel at `poses`; infinite where they do not face each other.
+/// Smallest gap (mm) over the common face of the pair with a running number, for undeformed smooth `flanks` of pinion
+/// and wheel at `poses`; infinite if they do not face each other.
 pub fn rigid_gap(
     pair: &GearPair,
     options: &ContactOptions,

@@ -1,12 +1,12 @@
-//! What a band of contact sees of a flank that deviates from its smooth surface. Theory (26a).
+//! Effect on a contact band of a flank's deviation from its smooth surface. Theory (26a).
 //!
-//! To first order at a given load a deviation f(x) along the profile changes the approach by its mean under the pressure
-//! of a flat punch as wide as the band:
+//! To first order, at a given load, a deviation f(x) along the profile changes the approach by the mean of f, weighted
+//! with the pressure of a flat punch as wide as the band:
 //!
 //! ```text
 //! m(a) = 1/pi int_-1^1 f(x_0 + a y) / sqrt(1 - y^2) dy,     cos(k x): m = J_0(k a) cos(k x_0)
 //! ```
-//! f is even in y under the integral, so m is a function of a^2, which grows with the load.
+//! f is even in y under the integral, so m is a function of a^2, which is proportional to the load.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -23,13 +23,13 @@ const LEAST_SLOPE: f64 = 0.5;
 /// Loads, over that of the widest band, at which slopes are compared: squares of so many parts.
 const LOADS: usize = 12;
 
-/// Mean of the deviations of both flanks over bands of any width at one place.
+/// Mean of the deviations of both flanks over bands of any width at one position.
 ///
 /// ```text
 /// m(a) = m(0) + sum_i c_i (a/A)^(2 i),   i = 1 .. 10,   m(a) = m(A) for a > A
 /// ```
-/// A: R/16. The c_i are those of the Chebyshev series of f over x_0 - A .. x_0 + A through 32 points, cut off after its
-/// 20th term.
+/// A is R/16. The c_i are the coefficients of the Chebyshev series of f over x_0 - A .. x_0 + A through 32 points,
+/// truncated after its 20th term.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BandMean {
     /// A, mm.
@@ -44,21 +44,22 @@ impl BandMean {
         WIDEST * radius
     }
 
-    /// Distances from the place at which deviations are taken, either way, over A.
+    /// Distances from the position, to both sides, at which deviations are sampled, divided by A.
     pub fn places() -> &'static [f64; SAMPLES] {
         &TABLES.0
     }
 
-    /// Mean of the deviation over bands of contact, from its means (mm) at both sides of the place at each of
-    /// [`BandMean::places`], for bands up to `widest` (mm).
+    /// Mean of the deviation over contact bands up to `widest` (mm). `samples` are the averages (mm) of the deviation
+    /// on both sides of the position, at each of [`BandMean::places`].
     pub fn new(widest: f64, samples: &[f64; SAMPLES]) -> Self {
         let of = |weights: &[f64; SAMPLES]| weights.iter().zip(samples).map(|(w, f)| w * f).sum();
         let all = &TABLES.1;
         Self { widest, at_rest: of(&all[0]), terms: std::array::from_fn(|i| of(&all[i + 1])) }
     }
 
-    /// This mean as far as the approach grows with the load: `load` (N/mm) makes the widest band, `slope` (mm^2/N) is that
-    /// of the approach on the smooth surface there. What changes too fast is kept near its mean over the widest band.
+    /// This mean, limited so that the approach still grows with the load. `load` (N/mm) is that of the widest band,
+    /// `slope` (mm^2/N) that of the approach on the smooth surface there. If the mean changes too fast, it is kept near
+    /// its value over the widest band.
     #[must_use]
     pub fn kept_rising(mut self, load: f64, slope: f64) -> Self {
         let by_share =
@@ -74,17 +75,17 @@ impl BandMean {
         self
     }
 
-    /// m(0): what it adds to the gap, mm.
+    /// m(0), its contribution to the gap, mm.
     pub fn at_rest(&self) -> f64 {
         self.at_rest
     }
 
-    /// (a/A)^2.
+    /// The ratio (a/A)^2.
     pub fn share(&self, half_width: f64) -> f64 {
         (half_width / self.widest).powi(2)
     }
 
-    /// m - m(0) (mm) at t = (a/A)^2, and t dm/dt.
+    /// m - m(0) (mm) at t = (a/A)^2, and the product t dm/dt.
     pub fn change(&self, t: f64) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
         let within = t.min(1.0);

@@ -1,29 +1,28 @@
-//! Contact near a tip edge, at it, and past it.
+//! Contact near a tip edge, at it, and beyond it.
 //!
-//! Near its tip a tooth is a wedge. With x the distance from the edge along the flank, in half-widths a of the Hertzian
-//! band that the same load would make far from the edge, the band lies where the gap (x - D)^2 a^2 / (2 R), x > 0, is
-//! closed: D > 1 on the flank, -1 < D < 1 cut off by the edge, D < 0 with the edge off the line of action (the flanks
-//! recede from each other by the angle -D a / R there). A force on the flank of a wedge dents it by
+//! Near its tip a tooth is a wedge. Let x be the distance from the edge along the flank, in half-widths a of the
+//! Hertzian band that the same load would make far from the edge. The band lies where the gap (x - D)^2 a^2 / (2 R), x
+//! > 0, is closed: D > 1 on the flank; -1 < D < 1 cut off by the edge; D < 0 with the edge off the line of action
+//! (there the flanks diverge by the angle -D a / R). A force on the flank of a wedge indents it by
 //!
 //! ```text
 //! u(x; s) = K q [-ln|x - s| - eta/2 ln(x s) + G(ln(x/s))] + const,   K = 2 (1 - nu^2) / (pi E)
 //! G(y) = 2 int_0^inf [L(w) - coth(pi w) / (2 w)] (cos(w y) - 1) dw
 //! L(w) = [(cosh(O w) - cos O) / (sinh(O w) + w sin O) + (cosh(O w) + cos O) / (sinh(O w) - w sin O)] / (4 w)
 //! ```
-//! O: the wedge's angle (Mellin transform of the elastic wedge). Solving this contact for wedge angles of 95 to 150
-//! degrees and mates of any stiffness shows that approach depends on D and on the one number e = eta K / (K + K') alone
-//! (K' of the mate), and that it parts into what the missing half of the band costs and what the wedge's softness
-//! costs:
+//! O is the wedge's angle (Mellin transform of the elastic wedge). This contact was solved for wedge angles of 95 to
+//! 150 degrees and mates of any stiffness. The approach depends only on D and on the number e = eta K / (K + K') (K' of
+//! the mate). It splits into the effect of the missing part of the band and the effect of the wedge's softness:
 //!
 //! ```text
 //! approach = (K + K') q [ln(2/a) + 1/2 + P(D) - e ln(a l(D, e))],   a l: distance of the load from the edge
 //! ```
-//! P is exact ([`cut_off`]), l a fit to the solved contact ([`reach`]); together within 0.02 of the bracket for e <
-//! 0.4, 0.05 for e < 1.3, -10 < D (`crates/contact/tests/contact_laws/local_approach.rs`).
+//! P is exact ([`cut_off`]); l is a fit to the solved contact ([`reach`]). Together they are within 0.02 of the bracket
+//! for e < 0.4, within 0.05 for e < 1.3, -10 < D (`crates/contact/tests/contact_laws/local_approach.rs`).
 //!
-//! An edge rounded by an arc of radius r, tangent to flank and tip land, softens the tooth exactly as the sharp corner
-//! would from which the arc was cut (resolved by finite elements: 0.5 %), but the flank ends at the tangent point, and
-//! beyond it the gap opens with the arc's curvature as well.
+//! An edge may be rounded by an arc of radius r, tangent to flank and tip land. It softens the tooth exactly as the
+//! sharp corner from which the arc was cut (resolved by finite elements: 0.5 %). But the flank ends at the tangent
+//! point, and beyond it the curvature of the arc opens the gap further.
 
 use std::f64::consts::PI;
 
@@ -31,12 +30,14 @@ use pulp::Simd;
 
 use crate::lanes::{Four, LANES};
 
-/// How much faster than a half-space's the compliance of a wedge of angle omega grows with the logarithm of distance.
+/// Wedge of angle omega compared with a half-space: how much faster its compliance grows with the logarithm of
+/// distance.
 ///
 /// ```text
 /// eta = pi [sin^2(omega/2) / (omega + sin omega) + cos^2(omega/2) / (omega - sin omega)] - 1
 /// ```
-/// From the energy of the radial stress field of a force at the tip of a wedge, normal to one face; 0 for omega = PI.
+/// Derived from the energy of the radial stress field of a force at the tip of a wedge, normal to one face; 0 for omega
+/// = PI.
 pub fn wedge_softening(omega: f64) -> f64 {
     let (sin2, cos2) = ((0.5 * omega).sin().powi(2), (0.5 * omega).cos().powi(2));
     PI * (sin2 / (omega + omega.sin()) + cos2 / (omega - omega.sin())) - 1.0
@@ -133,12 +134,12 @@ impl Edge {
         if self.arc > 0.0 && self.angle < PI { self.arc * (0.5 * (PI - self.angle)).tan() } else { 0.0 }
     }
 
-    /// Distance of the contact from where the flank ends, mm.
+    /// Distance from the contact to the end of the flank, mm.
     pub fn flank_left(&self) -> f64 {
         self.distance - self.tangent_point()
     }
 
-    /// What the arc takes away from under the least gap, mm: the gap to the rounded edge less that to the sharp one.
+    /// Increase of the smallest gap by the rounding, mm: the gap to the rounded edge minus that to the sharp one.
     pub fn opening(&self) -> f64 {
         let from = (self.distance - self.tangent_point()).min(0.0);
         if self.arc <= 0.0 || self.angle >= PI || from == 0.0 {
@@ -170,8 +171,7 @@ impl Default for FourEdges {
 }
 
 impl FourEdges {
-    /// Takes an edge for one of the rows; `e` as in [`reach`]. Of a body without an edge it stands for one that no band
-    /// comes near.
+    /// Sets the edge of one row; `e` as in [`reach`]. `None` stands for an edge that no band comes near.
     #[inline(always)]
     pub fn put(&mut self, lane: usize, edge: Option<&Edge>, e: f64) {
         let tangent = edge.map_or(0.0, Edge::tangent_point);
@@ -185,7 +185,7 @@ impl FourEdges {
         self.fit.iter_mut().zip(reach_fit(e)).for_each(|(all, own)| all[lane] = own);
     }
 
-    /// P and its derivative by ln a, for half-widths `a`; none where no band is cut off.
+    /// P and its derivative by ln a, for half-widths `a`; `None` if no band is cut off.
     #[inline(always)]
     pub fn cut_off<S: Simd>(&self, simd: S, a: Four<S>) -> Option<Dual<Four<S>>> {
         let from = Four::new(simd, &self.from);

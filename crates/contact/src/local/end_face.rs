@@ -1,22 +1,22 @@
-//! A contact line that ends at a face of the gear.
+//! Contact lines that end at an end face of the gear.
 
 use pulp::Simd;
 
 use crate::lanes::{Four, LANES};
 
-/// A free end face of a gear as the contact line meets it.
+/// A free end face of a gear, relative to the contact line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndFace {
     /// Distance along the contact line, mm.
     pub distance: f64,
-    /// How far the face leans from the line's normal plane, rad: positive where it meets the flank at an acute angle
-    /// (PI/2 - lean), negative where the angle is obtuse. On a helical tooth the base helix angle, acute at one end and
-    /// obtuse at the other.
+    /// Angle between the end face and the line's normal plane, rad. Positive if the face meets the flank at an acute
+    /// angle (PI/2 - lean), negative if the angle is obtuse. On a helical tooth its magnitude is the base helix angle;
+    /// it is acute at one end and obtuse at the other.
     pub lean: f64,
 }
 
 impl EndFace {
-    /// No end.
+    /// An end face that is infinitely far away.
     pub const FAR: Self = Self { distance: f64::INFINITY, lean: 0.0 };
 }
 
@@ -74,7 +74,7 @@ impl Default for FourFaces {
 }
 
 impl FourFaces {
-    /// Takes a face at a distance (mm) for one of the rows; `weights`: those of its lean; `t`: depth of the body, mm.
+    /// Sets a face at a distance (mm) for one row. `weights` are those of its lean; `t` is the depth of the body, mm.
     #[inline(always)]
     pub fn put(&mut self, lane: usize, distance: f64, weights: [f64; 2], t: f64) {
         let distance = distance.max(0.0) / t;
@@ -84,12 +84,12 @@ impl FourFaces {
         self.weights.iter_mut().zip(weights).for_each(|(all, own)| all[lane] = if is_felt { own } else { 0.0 });
     }
 
-    /// Whether any of the faces is so near that what it adds is no straight line over the square of the half-width.
+    /// Whether any face is so near that its contribution is not linear in the square of the half-width.
     pub fn is_near(&self) -> bool {
         self.distance.iter().any(|distance| *distance <= STRAIGHT)
     }
 
-    /// What the far ones of the faces add, and how that grows with the square of the half-width (1/mm^2).
+    /// Contribution of the far faces, and its growth with the square of the half-width (1/mm^2).
     #[inline(always)]
     pub fn far<S: Simd>(&self, simd: S) -> [Four<S>; 2] {
         let of = |x: f64| Four::splat(simd, x);
@@ -100,8 +100,7 @@ impl FourFaces {
         [straight.below(distance, value, zero), straight.below(distance, growth, zero)]
     }
 
-    /// What the near ones of the faces add to the bracket of the body for half-widths `a` (mm), and its derivative by
-    /// ln a.
+    /// Contribution of the near faces to the bracket of the body for half-widths `a` (mm), and its derivative by ln a.
     #[inline(always)]
     pub fn near<S: Simd>(&self, simd: S, a: Four<S>) -> (Four<S>, Four<S>) {
         let of = |x: f64| Four::splat(simd, x);

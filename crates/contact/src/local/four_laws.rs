@@ -1,4 +1,4 @@
-//! Laws of four rows side by side.
+//! Local laws of four rows at once.
 
 use std::f64::consts::{LN_2, PI};
 
@@ -135,7 +135,7 @@ pub(super) struct FourStates<S: Simd> {
 }
 
 impl FourLaws {
-    /// Takes the contact of one of the rows; [`FourLaws::complete`] comes after all of them.
+    /// Sets the contact of one row. [`FourLaws::complete`] must be called after all rows are set.
     pub fn put(&mut self, lane: usize, local: &LocalContact, length: f64, known: &mut [Constants; 2]) {
         // Told once, so that no place is checked.
         let lane = lane % LANES;
@@ -167,7 +167,7 @@ impl FourLaws {
         self.far[lane] = f64::from(u8::from(far));
     }
 
-    /// Makes what follows from what was put.
+    /// Computes the derived quantities once all rows are set.
     #[inline(always)]
     pub fn complete<S: Simd>(&mut self, simd: S) {
         for body in &mut self.bodies {
@@ -205,7 +205,7 @@ impl FourLaws {
         }
     }
 
-    /// Energy beyond half of load times approach: see `LocalLaw::curved_energy`.
+    /// Energy in excess of half of load times approach: see `LocalLaw::curved_energy`.
     #[inline(always)]
     pub fn curved_energy<S: Simd>(&self, simd: S, load: Four<S>) -> Four<S> {
         let of = |x: f64| Four::splat(simd, x);

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::lanes::{self, Four, LANES};
 
-/// A [`LocalContact`] ready to be loaded: for many loads at one place.
+/// A [`LocalContact`] prepared for many loads at one position.
 #[derive(Debug, Clone)]
 pub struct LocalLaw(Box<FourLaws>);
 
@@ -27,16 +27,16 @@ impl LocalLaw {
         self.0.under(Scalar256b, Four::splat(Scalar256b, load)).of(0)
     }
 
-    /// Energy of a line load `load` q (N/mm) per length of contact line beyond half of load times approach, N mm/mm, <=
-    /// 0 on a flank: its slope falls as the load grows.
+    /// Energy per length of contact line under a line load `load` q (N/mm), minus half of load times approach, N mm/mm.
+    /// It is <= 0 on a flank, because the slope falls as the load grows.
     ///
     /// ```text
     /// q delta / 2 - int_0^q delta dq' = -q^2 int_0^1 x [B(a sqrt x) - B(a)] dx,   delta = q B(a)
     /// B = -(K_1 + K_2) ln a + R(a):   the logarithm leaves (K_1 + K_2) / 8, R by quadrature,
     ///     or -R' / 12 (R' = dR / d ln a) where it goes with a^2, far from any edge
     /// ```
-    /// So strain energy is the integral of the very law, and forces are its derivatives: to 1e-7 of it next to edges,
-    /// else to round-off.
+    /// So the strain energy is the integral of exactly this law, and forces are its derivatives: next to edges to 1e-7
+    /// of the energy, elsewhere to round-off.
     pub fn curved_energy(&self, load: f64) -> f64 {
         self.0.curved_energy(Scalar256b, Four::splat(Scalar256b, load)).array()[0]
     }
@@ -57,12 +57,12 @@ pub(crate) struct LocalLaws {
 }
 
 impl LocalLaws {
-    /// Memory for some rows.
+    /// Allocates memory for `rows` rows.
     pub fn with_capacity(rows: usize) -> Self {
         Self { fours: Vec::with_capacity(rows.div_ceil(LANES)), ..Self::default() }
     }
 
-    /// Takes the laws of slices of some lengths (mm) in place of those at hand.
+    /// Replaces the laws by those of slices with given lengths (mm).
     pub fn take<'a>(&mut self, slices: impl ExactSizeIterator<Item = (&'a LocalContact, f64)>) {
         self.count = slices.len();
         self.fours.resize_with(self.count.div_ceil(LANES), FourLaws::default);
@@ -72,7 +72,7 @@ impl LocalLaws {
         lanes::run(self.arch, Complete(&mut self.fours));
     }
 
-    /// Size, bytes.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         self.fours.len() * size_of::<FourLaws>()
     }
@@ -83,7 +83,7 @@ impl LocalLaws {
         four.under(Scalar256b, Four::splat(Scalar256b, force / four.length[lane])).of(lane)
     }
 
-    /// States of all rows under forces (N), and what each stores beyond half of force times approach, N mm; nothing without
+    /// States of all rows under forces (N), and their stored energy minus half of force times approach, N mm; 0 without
     /// a force.
     pub fn states(&self, forces: &[f64]) -> Vec<(LocalState, f64)> {
         let mut states = vec![Default::default(); self.count];
@@ -91,7 +91,7 @@ impl LocalLaws {
         states
     }
 
-    /// Sum over the rows of the energies beyond half of force times approach, N mm.
+    /// Sum over the rows of the stored energies minus half of force times approach, N mm.
     pub fn curved_energy(&self, forces: &[f64]) -> f64 {
         lanes::run(self.arch, CurvedEnergy { fours: &self.fours, forces })
     }
@@ -102,7 +102,7 @@ impl LocalLaws {
         (state.approach, state.slope / self.fours[row / LANES].length[row % LANES])
     }
 
-    /// Approach and slope of all rows.
+    /// Approach and slope of all rows under forces (N).
     pub fn linearise(&self, forces: &[f64], approach: &mut [f64], slopes: &mut [f64]) {
         lanes::run(self.arch, Linearise { fours: &self.fours, forces, of: [approach, slopes] });
     }

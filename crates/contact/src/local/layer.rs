@@ -1,13 +1,13 @@
-//! A layer bonded to a rigid base: what a half tooth would be if it had no ends. Theory (19d).
+//! A layer bonded to a rigid base: a half tooth without ends. Theory (19d).
 
-/// Constant c_L of an elastic layer bonded to a rigid base, plane strain.
+/// Layer constant c_L of an elastic layer bonded to a rigid base, in plane strain.
 ///
 /// ```text
 /// c_L = int_0^inf [k(w) - 1 + exp(-w)] / w dw
 /// k(w) = [x (1 - e^2) - 4 w e] / [x (1 + e^2) + (4 w^2 + x^2 + 1) e],   e = exp(-2 w),  x = 3 - 4 nu
 /// ```
-/// Far from its edges a layer of depth t sinks under a Hertzian line load q by K q [ln(2 t / a) + 1/2 + c_L]. A real
-/// half tooth has a tip, a foot and a tapering depth: `reduction::LayerProfile` gives the constant at every place of
+/// Far from its edges a layer of depth t is indented by a Hertzian line load q by K q [ln(2 t / a) + 1/2 + c_L]. A real
+/// half tooth has a tip, a root and a varying depth: `reduction::LayerProfile` gives the constant at every position of
 /// its flank.
 pub fn layer_constant(poisson: f64) -> f64 {
     let x = 3.0 - 4.0 * poisson;

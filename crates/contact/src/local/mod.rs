@@ -1,4 +1,4 @@
-//! Local compliance of a line contact: what the mesh of a gear is too coarse to know. Theory (19c).
+//! Local compliance of a line contact, which the mesh of a gear is too coarse to resolve. Theory (19c).
 
 mod deviation;
 mod edge;
@@ -16,27 +16,27 @@ pub use laws::LocalLaw;
 pub(crate) use laws::LocalLaws;
 pub use layer::layer_constant;
 
-/// One of the two flanks where they touch.
+/// One of the two flanks at the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalBody {
     /// Young's modulus, MPa.
     pub young: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Constant c of the layer at this place, without what the tip edge adds: from `reduction::LayerProfile`;
+    /// Layer constant c at this position, without the effect of the tip edge: from `reduction::LayerProfile`, or
     /// [`layer_constant`] for a layer without ends (`tip_angle` PI).
     pub layer: f64,
     /// Depth t of the layer, mm: from the flank to the centre surface of its tooth.
     pub depth: f64,
-    /// Distance d from the contact to the tip edge along the profile, mm, the sharp corner even where it is rounded; 0
-    /// when the edge itself touches.
+    /// Distance d from the contact to the tip edge along the profile, mm, measured to the sharp corner even if it is
+    /// rounded; 0 if the edge itself touches.
     pub tip_distance: f64,
-    /// Angle between flank and tip land, inside the material, rad; PI where there is no edge.
+    /// Angle between flank and tip land, inside the material, rad; PI if there is no edge.
     pub tip_angle: f64,
-    /// d/dx [c + (1 + eta) ln t] at the tip, x the distance from the edge, 1/mm: the band of an edge contact lies a
-    /// little inside the edge.
+    /// d/dx [c + (1 + eta) ln t] at the tip, 1/mm, where x is the distance from the edge. It is needed because the band
+    /// of an edge contact lies slightly inside the edge.
     pub tip_gradient: f64,
-    /// Radius of the arc that rounds the tip edge, tangent to flank and tip land, mm; 0: sharp.
+    /// Radius of the arc that rounds the tip edge, tangent to flank and tip land, mm; 0: sharp edge.
     pub edge_radius: f64,
     /// The two end faces of the gear.
     pub ends: [EndFace; 2],
@@ -45,16 +45,17 @@ pub struct LocalBody {
 /// Line contact of two flanks at one axial station.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalContact {
-    /// Bodies of both flanks.
+    /// Data of the two flanks.
     pub bodies: [LocalBody; 2],
     /// Relative radius of curvature in the normal plane, mm.
     pub radius: f64,
-    /// How far past the tip edge the smooth flanks would touch, mm of arc of the edge's own flank continued; 0 on the
-    /// line of action. The edge is that of the body with the smaller `tip_distance`.
+    /// Distance beyond the tip edge at which the smooth flanks would touch, mm of arc along the extended flank of the
+    /// edge; 0 on the line of action. The edge is that of the body with the smaller `tip_distance`.
     ///
-    /// It is radius times the angle (rad) at which the flanks recede from each other at the edge.
+    /// It is the radius times the angle (rad) by which the flanks diverge at the edge.
     pub off_line: f64,
-    /// What the band sees of flanks that deviate from their smooth surfaces, `None` where they do not; m(0) is part of the gap, not of the approach.
+    /// Effect on the band of flanks that deviate from their smooth surfaces; `None` if they do not. m(0) is part of the
+    /// gap, not of the approach.
     pub deviation: Option<Box<BandMean>>,
 }
 
@@ -67,7 +68,7 @@ pub struct LocalState {
     pub slope: f64,
     /// Half-width of the band, mm.
     pub half_width: f64,
-    /// Largest pressure, MPa.
+    /// Largest pressure across the band, MPa.
     pub pressure: f64,
 }
 
@@ -79,21 +80,22 @@ impl LocalContact {
     ///         + m(a) - m(0)
     /// K_b = 2 (1 - nu^2) / (pi E)
     /// ```
-    /// a: half-width after Hertz; c: [`LocalBody::layer`]; E: softening by the end faces; eta: [`wedge_softening`]; l:
-    /// distance between load and tip edge, d where the band is narrow; g: [`LocalBody::tip_gradient`]; P: what is lost
-    /// where the edge cuts the band off; m: [`BandMean`]. All continuous with their slopes, from the middle of the flank to an edge far
-    /// off the line of action. Without load, all is 0 and the slope is that of a load small enough not to matter.
+    /// a is the half-width after Hertz; c is [`LocalBody::layer`]; E the softening by the end faces; eta is
+    /// [`wedge_softening`]; l the distance between load and tip edge, equal to d for a narrow band; g is
+    /// [`LocalBody::tip_gradient`]; P the effect of a band that is cut off by the edge; m is [`BandMean`]. All terms
+    /// have continuous slopes, from the middle of the flank to an edge far off the line of action. Without load all
+    /// values are 0, and the slope is that of a negligibly small load.
     pub fn under(&self, load: f64) -> LocalState {
         self.law().under(load)
     }
 
-    /// All of it that does not depend on the load.
+    /// The local law: the part that does not depend on the load, computed once.
     pub fn law(&self) -> LocalLaw {
         LocalLaw::new(self)
     }
 
-    /// What rounding the edge adds to the gap between the sharp flanks, mm: the arc lies behind the corner that it
-    /// replaces. 0 without an edge radius and away from the edge.
+    /// Increase of the gap between the sharp flanks by the rounding of the edge, mm: the arc lies behind the corner
+    /// that it replaces. 0 without an edge radius and away from the edge.
     pub fn edge_opening(&self) -> f64 {
         let rounded = self.bodies.iter().any(|body| body.edge_radius > 0.0);
         if rounded { self.edges().iter().map(Edge::opening).sum() } else { 0.0 }

@@ -21,34 +21,35 @@ pub struct Scene<'a> {
     pub first_tree: &'a Candidates,
     /// Faces of body 2 for stage 1.
     pub second_tree: &'a Candidates,
-    /// Gaps between what.
+    /// Surfaces between which gaps are measured.
     pub source: GapSource,
-    /// Further points of pairs of patches, from [`line_points`]; they stand for no area, so they are for exact contact,
-    /// where a row needs none. With them the first touch is found where it is, not at the nearest Gauss point.
+    /// Further points of pairs of patches, from [`line_points`]. They represent no area, so they are only for exact
+    /// contact, where a row needs no area. With them the first contact is found at its true position and not at the
+    /// nearest Gauss point.
     pub line: &'a LinePoints,
 }
 
-/// Points of least gap, by pair of patches.
+/// Points of smallest gap, by pair of patches.
 pub type LinePoints = BTreeMap<(usize, usize), Vec<ContactPoint>>;
 
 /// Load of a unit contact force on one body: weights on boundary nodes, along one direction.
 ///
-/// Opening of the gap by the body's displacement u: sum_i w_i d . u_i; the same weights distribute the force.
+/// Opening of the gap by the body's displacement u: sum_i w_i d . u_i. The same weights distribute the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
     /// Boundary nodes.
     pub nodes: [u32; 9],
-    /// Shape functions.
+    /// Weights of the nodes (shape functions).
     pub weights: [f64; 9],
-    /// Number of nodes that are used.
+    /// Number of nodes in use.
     pub count: usize,
     /// Direction d in the body's own frame: the direction of the normal force on the body.
     pub direction: Vec3,
-    /// Force on the body for a unit normal force, own frame: `direction`, and friction on top.
+    /// Force on the body for a unit normal force, own frame: `direction` plus friction.
     pub load: Vec3,
 }
 
-/// One candidate point with everything the solve needs.
+/// One candidate point with all data for the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactRow {
     /// Patches of body 1 and 2.
@@ -57,7 +58,7 @@ pub struct ContactRow {
     pub point: usize,
     /// Gap, mm, at the given poses, undeformed.
     pub gap: f64,
-    /// Area it stands for, mm^2.
+    /// Area that the point represents, mm^2.
     pub area: f64,
     /// Position of the point, common frame, mm.
     pub position: Vec3,
@@ -65,22 +66,22 @@ pub struct ContactRow {
     pub normal: Vec3,
     /// Surface coordinates on body 1.
     pub coordinates: [f64; 2],
-    /// d gap / d angle of each body about its own z axis, wherever its pose points it, mm; a unit normal force turns
-    /// the body with just this moment.
+    /// d gap / d angle of each body about its own z axis, whatever its pose, mm. A unit normal force exerts this moment
+    /// on the body.
     pub levers: [f64; 2],
-    /// Moment of a unit normal force, friction included, about each body's own z axis, mm: the levers where there is no
+    /// Moment of a unit normal force, friction included, about each body's own z axis, mm; equal to the levers without
     /// friction.
     pub torque_levers: [f64; 2],
-    /// Force on body 1 for a unit normal force, common frame: `normal`, and friction on top.
+    /// Force on body 1 for a unit normal force, common frame: `normal` plus friction.
     pub traction: Vec3,
-    /// Loading of the bodies.
+    /// Loads on the two bodies.
     pub supports: [Support; 2],
 }
 
 /// Gap rows of all candidate points nearer than `reach` (mm), ascending by (patch, point).
 ///
-/// g = (x_1 - x_2) . n_2 with x_2 the foot of x_1 on body 2's smooth surface. A point whose foot lies off body 2's
-/// faces is no candidate. Where several patches of body 2 are near, each makes a row of its own.
+/// g = (x_1 - x_2) . n_2, where x_2 is the foot point of x_1 on body 2's smooth surface. A point whose foot lies off
+/// the faces of body 2 is not a candidate. If several patches of body 2 are near, each gives a row of its own.
 pub fn closest_points(scene: &Scene, poses: &[Pose; 2], reach: f64) -> Vec<ContactRow> {
     let pairs = scene.first_tree.pairs(&poses[0], scene.second_tree, &poses[1], reach);
     let mut touching: Vec<(usize, usize, usize)> = pairs.iter().map(|p| (p.first.0, p.second.0, p.first.1)).collect();
@@ -105,7 +106,7 @@ pub fn closest_points(scene: &Scene, poses: &[Pose; 2], reach: f64) -> Vec<Conta
     rows
 }
 
-/// Points of least gap of two patches at `stations` equally spaced heights.
+/// Points of smallest gap of two patches at `stations` equally spaced heights.
 pub fn line_points(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], stations: usize) -> Vec<ContactPoint> {
     let [low, high] = first.range();
     (0..stations)
@@ -118,7 +119,8 @@ pub fn line_points(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], s
         .collect()
 }
 
-/// Gap row of a point `p` (numbered `point`) of one pair of patches; `None` when it has no foot on the faces of body 2.
+/// Gap row of a point `p` (numbered `point`) of one pair of patches; `None` if it has no foot point on the faces of
+/// body 2.
 pub fn contact_row(
     scene: &Scene,
     poses: &[Pose; 2],
@@ -241,7 +243,7 @@ impl Support {
 impl ContactRow {
     /// Adds friction: `tangential` (common frame) is the friction force on body 1 for a unit normal force.
     ///
-    /// Gaps stay what they are; the bodies and the moments see normal and friction force together.
+    /// The gap does not change; the bodies and the moments get normal and friction force together.
     #[must_use]
     pub fn with_friction(mut self, poses: &[Pose; 2], tangential: &Vec3) -> Self {
         self.traction = self.normal + tangential;
@@ -251,7 +253,7 @@ impl ContactRow {
         self
     }
 
-    /// Whether the nodes that it rests on are known.
+    /// Whether the nodes that carry the row are known.
     pub fn is_supported(&self) -> bool {
         self.supports.iter().all(|s| s.count > 0)
     }

@@ -1,4 +1,4 @@
-//! Where two flanks are nearest at an axial station.
+//! Finds the point at which two flanks are nearest at an axial station.
 
 use crate::{
     Pose,
@@ -75,8 +75,8 @@ impl SurfacePair<'_> {
     }
 }
 
-/// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of
-/// the faces included. `None` where no point of the station faces `second`.
+/// Surface coordinates on `first` at height `z` (mm) at which the gap to the smooth surface of `second` is smallest,
+/// ends of the faces included. `None` if no point of the station faces `second`.
 pub fn least_gap(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], z: f64) -> Option<[f64; 2]> {
     let [low, high] = first.range();
     // The edge nodes lie on the surface to round-off or, from Gmsh, to a nanometre: stay inside the faces.

@@ -1,4 +1,4 @@
-//! Contact of points of the flank mesh against the smooth surface of the other flank.
+//! Contact of points of the flank mesh with the smooth surface of the other flank.
 
 mod closest_point;
 mod least_gap;

@@ -1,4 +1,4 @@
-//! The gap along a profile to first order: where dips of it may be. Theory (35).
+//! First-order approximation of the gap along a profile, which tells where it may have minima. Theory (35).
 
 use std::f64::consts::{PI, TAU};
 
@@ -88,8 +88,8 @@ impl Dips {
 type Place = [f64; 3];
 
 impl FirstOrderGap {
-    /// `None` for surfaces that are no involutes, and for flanks that overlap or are apart by more than the first order
-    /// serves for.
+    /// `None` for surfaces that are not involutes, and for flanks whose overlap or distance exceeds the range of the
+    /// first-order approximation.
     pub fn new(surfaces: [&dyn Surface; 2], rolls: [[f64; 2]; 2], poses: [&Pose; 2]) -> Option<Self> {
         let [first, second] = [surfaces[0].nominal_flank()?, surfaces[1].nominal_flank()?];
         let across = poses[1].translation.vector - poses[0].translation.vector;
@@ -137,7 +137,7 @@ impl FirstOrderGap {
         })
     }
 
-    /// Angle of a stride about a roll angle of the first flank, rad.
+    /// Angle of a stride at a roll angle of the first flank, rad.
     pub fn stride_at(&self, u: f64) -> f64 {
         self.stride / (self.base_radius[0].abs() * u.max(self.least_roll()))
     }
@@ -146,13 +146,13 @@ impl FirstOrderGap {
         0.1 * self.rolls[0][1]
     }
 
-    /// d slope / du of the gap at a roll angle of the first flank, for nominal flanks, mm.
+    /// Derivative of the gap's slope by u at a roll angle of the first flank, for nominal flanks, mm.
     pub fn slope_derivative(&self, u: f64, z: f64) -> f64 {
         let arc = self.base_radius[0] * u;
         arc * arc * self.curvature(self.touch_at(z)) * self.cos_base_helix
     }
 
-    /// Roll angle of the first flank's nominal contact at a height (mm), exact on parallel axes; none on others.
+    /// Roll angle of the first flank's nominal contact at a height (mm), exact for parallel axes; `None` for others.
     pub fn touch(&self, z: f64) -> Option<f64> {
         self.is_parallel().then_some(self.touch[0] + self.twist * z)
     }
@@ -214,8 +214,8 @@ impl FirstOrderGap {
         SURELY * 0.5 * self.cos_base_helix * curvature * s * s
     }
 
-    /// Whether plain helicoids surely come no nearer to each other than `reach` (mm) at a height (mm): where one of them
-    /// ends before the place of touch they have parted by [`Self::surely_parted`] at the least.
+    /// Whether plain helicoids are certainly not nearer than `reach` (mm) at a height (mm). If one of them ends before
+    /// the contact position, the gap is at least [`Self::surely_parted`].
     pub fn is_wider(&self, z: f64, reach: f64) -> bool {
         let ([low, high], square) = match self.faced(self.touch_at(z)) {
             Ok(faced) => faced,
@@ -225,7 +225,7 @@ impl FirstOrderGap {
         self.apart - self.tilted + parted + self.shallowest > reach
     }
 
-    /// What is seen at a height (mm); of gaps wider than `reach` (mm) only that they are.
+    /// The approximation at a height (mm). For gaps wider than `reach` (mm) it says only that they are wider.
     pub fn look(&self, surfaces: [&dyn Surface; 2], z: f64, reach: f64) -> Option<Outlook> {
         let touch = self.touch_at(z);
         let [r1, r2] = self.base_radius;

@@ -1,5 +1,5 @@
-//! How slices under held forces follow small changes of flanks and poses, all changes together.
-//! Theory (77a).
+//! Changes of slices under constant forces by small changes of flanks and poses, for several changes at once. Theory
+//! (77a).
 
 use geometry::modification::DepthRate;
 
@@ -17,12 +17,13 @@ use crate::{
     nodal::{ContactRow, levers},
 };
 
-/// Rates of the depths of both gears' flanks, patch by patch; none where nothing changes.
+/// Derivatives of the depths of both gears' flanks, patch by patch; `None` where nothing changes.
 #[derive(Debug, Default)]
 pub struct FlankRates([Vec<Option<DepthRate>>; 2]);
 
 impl FlankRates {
-    /// Rates from flanks with less of a parameter, as they are, and with more of it; `steps` to these, above 0.
+    /// Derivatives from three sets of flanks: with less of a parameter, as they are, and with more. `steps` are the two
+    /// differences of the parameter, both above 0.
     pub fn between(sets: [&ContactSet; 3], steps: [f64; 2]) -> Self {
         let of_patch = |b: usize, i: usize| {
             let flanks = sets.map(|set| set.patches()[b].get(i).and_then(|patch| patch.surface().modified_flank()));
@@ -38,48 +39,48 @@ impl FlankRates {
     }
 }
 
-/// A small change of a pair either way.
+/// A small change of a pair in both directions.
 #[derive(Debug, Clone, Copy)]
 pub struct FlankChange<'a> {
-    /// Flanks with less and with more.
+    /// Flanks with less and with more of the parameter.
     pub sets: [&'a ContactSet; 2],
-    /// Poses of both gears' frames with less and with more.
+    /// Poses of both gears' frames with less and with more of the parameter.
     pub poses: [[Pose; 2]; 2],
-    /// Friction with less and with more.
+    /// Friction with less and with more of the parameter.
     pub friction: [Option<Friction>; 2],
-    /// Steps down and up, above 0.
+    /// Steps down and up, both above 0.
     pub steps: [f64; 2],
-    /// Rates of the flanks' depths.
+    /// Derivatives of the flanks' depths.
     pub depths: &'a FlankRates,
 }
 
-/// Rates of what the slices of a contact are under forces that stay, either way, per unit of a change.
+/// Derivatives, in both directions, of the slices' state under constant forces, per unit of the change.
 #[derive(Debug, Clone)]
 pub struct ChangeRates {
-    /// Of the distances R of [`SameSlices::compliance`], mm, row by row.
+    /// Derivative of the distances R of [`SameSlices::compliance`], mm, row by row.
     pub distances: Vec<[f64; 2]>,
-    /// Of the moment of the forces about a gear's axis, N mm.
+    /// Derivative of the moment of the forces about a gear's axis, N mm.
     pub moment: [f64; 2],
-    /// Of the largest pressures of some rows, MPa.
+    /// Derivative of the largest pressures of several rows, MPa.
     pub pressures: [[f64; 2]; 2],
 }
 
-/// Slices of a solved contact with forces that stay.
+/// Slices of a solved contact with constant forces.
 #[derive(Debug, Clone, Copy)]
 pub struct HeldForces<'a> {
     /// Flanks and matrices.
     pub set: &'a ContactSet,
     /// Poses of the gears' frames.
     pub poses: &'a [Pose; 2],
-    /// Friction.
+    /// Friction, if any.
     pub friction: Option<&'a Friction>,
-    /// The slices.
+    /// The slices of the contact.
     pub slices: &'a SameSlices,
-    /// Their forces, N.
+    /// Forces of the slices, N.
     pub forces: &'a [f64],
-    /// Gear about whose axis moments are taken.
+    /// Gear about whose axis moments are computed.
     pub body: usize,
-    /// Rows whose pressures are followed.
+    /// Rows whose pressures are wanted.
     pub pressed: [Option<usize>; 2],
 }
 
@@ -87,14 +88,14 @@ pub struct HeldForces<'a> {
 type RowRates = Vec<Vec<RowRate>>;
 
 impl HeldForces<'_> {
-    /// Rates by some changes; `None` where a slice is not on the changed flanks.
+    /// Derivatives by several changes; `None` if a slice is not on the changed flanks.
     ///
     /// ```text
     /// R_i = g_i + (C f)_i + delta_i(f_i)
     /// dR = dg + dC f + d delta,   all by what place, directions and curvature of each slice do
     /// ```
-    /// Between smooth flanks these follow from the geometry in closed form; slices on edges and kinks are searched either
-    /// way.
+    /// Between smooth flanks these derivatives follow from the geometry in closed form. Slices on edges and kinks are
+    /// searched again on both sides.
     pub fn rates(&self, changes: &[FlankChange<'_>]) -> Option<Vec<ChangeRates>> {
         let slice_set = self.set.slices()?;
         let patches = [&self.set.patches()[0][..], &self.set.patches()[1][..]];

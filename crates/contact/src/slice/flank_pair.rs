@@ -1,4 +1,4 @@
-//! Contact by axial slices: at each station the one place of the profile where two flanks are nearest.
+//! Contact by axial slices: at each station the point of the profile at which two flanks are nearest.
 
 use crate::{
     Pose,
@@ -9,7 +9,7 @@ use crate::{
     slice::{SliceHint, ToothLayer},
 };
 
-/// One flank as slices see it.
+/// One flank for contact of slices.
 #[derive(Debug, Clone, Copy)]
 pub struct SliceFlank<'a> {
     /// Smooth surface, and faces that carry the load.
@@ -25,11 +25,11 @@ pub struct Slice {
     pub z: f64,
     /// Surface coordinates of the contact on each flank.
     pub at: [[f64; 2]; 2],
-    /// Length of contact line that the slice stands for, mm.
+    /// Length of contact line that the slice represents, mm.
     pub length: f64,
-    /// The band at this place.
+    /// Local contact at this position.
     pub local: LocalContact,
-    /// Whether plain flanks press on each other here, on parallel axes: along the normals of both.
+    /// Whether plain flanks touch here on parallel axes, so that the force acts along the normals of both.
     pub is_along_normals: bool,
 }
 
@@ -54,18 +54,19 @@ pub(crate) struct SlicePoint {
 }
 
 impl SlicePoint {
-    /// Least gap between the flanks along the profile, mm; what rounding of an edge adds to it is left out.
+    /// Smallest gap between the flanks along the profile, mm, without the increase by the rounding of an edge.
     pub fn gap(&self) -> f64 {
         self.sample.gap + self.deviation
     }
 }
 
-/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None`
-/// where the flanks do not face each other.
+/// The slice at height `z` (mm, body 1's own frame) for `length` mm of contact line, and its gap row; `None` if the
+/// flanks do not face each other.
 ///
-/// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip,
-/// the tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of
-/// its own. So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
+/// For flank against flank, the gap's slope along the profile, n_2 . dx_1/du, is zero. If this point lies beyond a tip,
+/// the tip edge touches the other flank along that flank's normal; contact off the line of action needs no special
+/// case. The same holds for the kink at which a linear relief begins: a kink has no normal, but the flank that it
+/// touches has.
 pub fn slice(
     flanks: [SliceFlank; 2],
     poses: &[Pose; 2],
@@ -82,7 +83,7 @@ pub fn slice(
 }
 
 impl SliceHint {
-    /// Near a roll angle of body 1.
+    /// A start near a roll angle of body 1.
     pub fn near(roll: f64) -> Self {
         Self { roll: Some(roll), ..Self::default() }
     }
@@ -158,7 +159,7 @@ impl<'a> FlankPair<'a> {
         }
     }
 
-    /// The gap that the slice at a place has, mm: [`SlicePoint::gap`] and what the rounding of an edge adds.
+    /// Gap of the slice at a point, mm: [`SlicePoint::gap`] plus the increase by the rounding of an edge.
     pub fn gap(&self, nearest: &SlicePoint) -> f64 {
         let SlicePoint { point, sample, z, deviation } = *nearest;
         let smooth = match point {
@@ -200,8 +201,8 @@ impl<'a> FlankPair<'a> {
         Some(([opposite.foot, edge], opposite, off_line([b, a], opposite.slope, [edge, opposite.foot])))
     }
 
-    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests
-    /// on: [`FlankPair::support`] finds these for who needs them.
+    /// The slice at a point, for `length` mm of contact line, and its gap row without the nodes that carry it.
+    /// [`FlankPair::support`] finds these nodes if they are needed.
     pub fn slice(
         &self,
         nearest: &SlicePoint,
@@ -239,7 +240,7 @@ impl<'a> FlankPair<'a> {
         }
     }
 
-    /// Finds the nodes that a row of [`FlankPair::slice`] rests on, and their weights; whether there are any.
+    /// Finds the nodes that carry a row of [`FlankPair::slice`], and their weights; returns whether there are any.
     pub fn support(&self, row: &mut ContactRow, slice: &Slice, hint: &mut SliceHint) -> bool {
         let patches = self.patches();
         (0..2).all(|i| {

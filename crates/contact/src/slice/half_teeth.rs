@@ -1,4 +1,4 @@
-//! The half teeth behind the flanks of a window, and what these take away of the compliance. Theory (19a), (19b).
+//! Half teeth behind the flanks of a window, and their part of the compliance. Theory (19a), (19b).
 
 use std::sync::Arc;
 
@@ -57,11 +57,11 @@ struct FlankBody {
 }
 
 impl HalfTeeth {
-    /// Half teeth behind the patches of both gears; `flanks` names the tooth and the side of each patch, `number` a mesh
-    /// node among the boundary.
+    /// Half teeth behind the patches of both gears. `flanks` gives tooth and side of each patch, `number` the boundary
+    /// number of a mesh node.
     ///
     /// # Errors
-    /// [`ContactError::Reduction`] when a half tooth cannot be condensed.
+    /// [`ContactError::Reduction`] if a half tooth cannot be condensed.
     pub fn new(
         pair: &GearPair,
         gears: &[ElasticGear; 2],
@@ -83,11 +83,11 @@ impl HalfTeeth {
         Ok(Self { bodies, corner_contact: options.corner_contact, bulk: None })
     }
 
-    /// Half teeth with the bulk compliance of the given windows in tables, if tables are requested and reach the requested
-    /// accuracy; where a gear is known by a part of its layers, there is no other way.
+    /// Half teeth with the bulk compliance of the given windows in tables, if tables are requested and reach the
+    /// requested accuracy. A gear that is condensed by its layers must have tables.
     ///
     /// # Errors
-    /// [`ContactError::Layers`].
+    /// [`ContactError::Layers`] if its table is not accurate enough.
     pub fn with_tables(
         mut self,
         flanks: [TableFlanks<'_>; 2],
@@ -128,12 +128,12 @@ impl HalfTeeth {
         Ok(self)
     }
 
-    /// Bulk compliance of both gears in tables; `None` where it is exact.
+    /// Bulk compliance of both gears in tables; `None` if it is exact.
     pub fn bulk(&self) -> Option<&[BulkTable; 2]> {
         self.bulk.as_ref()
     }
 
-    /// Whether edges may press off the line of action.
+    /// Whether edges may touch off the line of action.
     pub fn has_corner_contact(&self) -> bool {
         self.corner_contact
     }

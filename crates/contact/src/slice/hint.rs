@@ -1,8 +1,8 @@
-//! Where the search for a slice begins.
+//! Start of the search for a slice.
 
 use crate::flank::FacePoint;
 
-/// Where a slice was found before: the next search nearby starts from there. Any start gives the same slice.
+/// Position of a slice found before, from which the next search nearby starts. The slice does not depend on the start.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SliceHint {
     pub(crate) roll: Option<f64>,
@@ -10,7 +10,7 @@ pub struct SliceHint {
 }
 
 impl SliceHint {
-    /// Hint for the next station of a search that was at `before` a station ago: as far again.
+    /// Hint for the next station by linear extrapolation, if the search was at `before` one station earlier.
     #[must_use]
     pub fn beyond(&self, before: &Self) -> Self {
         let roll = match (self.roll, before.roll) {
@@ -20,8 +20,8 @@ impl SliceHint {
         Self { roll, faces: Default::default() }
     }
 
-    /// Follows body 1's turn about its own axis (rad): contact stays on its line in space, so the place of flank
-    /// `patch` moves by as much in roll angle.
+    /// Follows the rotation of body 1 about its own axis (rad). Contact stays on its line in space, so the position on
+    /// flank `patch` moves by the same roll angle.
     pub fn turn(&mut self, side: f64, angle: f64) {
         if let Some(roll) = &mut self.roll {
             *roll += side * angle;

@@ -1,4 +1,4 @@
-//! Contact of slices: one line load an axial slice, where both profiles are nearest.
+//! Contact of slices: one line load per axial slice, at the point where both profiles are nearest.
 
 mod first_order;
 mod flank_change;

@@ -1,4 +1,4 @@
-//! Where a profile ends before the place at which the gap's slope would vanish.
+//! Ends of a profile that come before the point at which the gap's slope would be zero.
 
 use crate::bracketing::bracket_zero;
 

@@ -1,5 +1,5 @@
-//! Where a profile has a kink, as at the start of a linear relief: the slope of the gap jumps there, and no method that
-//! follows it finds the place in few steps.
+//! Kinks of a profile, such as the start of a linear relief. The slope of the gap jumps there, and no method that
+//! follows the slope finds the point in few steps.
 
 use super::profile_search::{LeastGapPoint, Place, ProfilePair, RESOLUTION};
 

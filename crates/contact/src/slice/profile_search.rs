@@ -1,4 +1,4 @@
-//! Search for the least gap of two profiles at a height of body 1. Theory (35).
+//! Search for the smallest gap of two profiles at a height of body 1. Theory (35).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -108,7 +108,7 @@ impl<'a> ProfilePair<'a> {
         Self { guide, ..Self::unguided(patches, poses) }
     }
 
-    /// Two patches, for a look at places that are known.
+    /// Two patches without guidance, to evaluate known points.
     pub fn unguided(patches: [&'a FlankPatch; 2], poses: [&Pose; 2]) -> Self {
         let relative = poses[1].inverse() * poses[0];
         Self {
@@ -125,7 +125,7 @@ impl<'a> ProfilePair<'a> {
         self.turn * self.patches[0].surface().point(at) + self.shift
     }
 
-    /// Gap and its slope along the profile; `None` where the point has no foot on body 2.
+    /// Gap and its slope along the profile; `None` if the point has no foot point on body 2.
     pub fn sample(&self, at: [f64; 2]) -> Option<GapSample> {
         let [point, tangent] = self.patches[0].surface().point_and_profile(at);
         let point = self.turn * point + self.shift;
@@ -140,8 +140,8 @@ impl<'a> ProfilePair<'a> {
         [low, high]
     }
 
-    /// The least gap at height `z` to first order (mm), from which to which; `None` where nothing is faced. Anything where
-    /// the first order says nothing.
+    /// First-order bounds of the smallest gap at height `z` (mm); `None` if the flank faces nothing. Unbounded where
+    /// the first-order approximation does not hold.
     pub fn foretold(&self, z: f64) -> Option<[f64; 2]> {
         let anything = [f64::NEG_INFINITY, f64::INFINITY];
         let Some(guide) = self.dips() else { return Some(anything) };
@@ -153,15 +153,15 @@ impl<'a> ProfilePair<'a> {
         }
     }
 
-    /// Point of least gap at height `z` (mm) of body 1, and the gap there. `None` where the flanks do not face each
-    /// other: the surfaces go on beyond their flanks, and what lies deep behind one is another side of the gear, as a
-    /// tooth on the far side is.
+    /// Point of smallest gap at height `z` (mm) of body 1, and the gap there. `None` if the flanks do not face each
+    /// other: the surfaces extend beyond their flanks, and a point deep behind one of them belongs to another side of
+    /// the gear, such as a tooth on the far side.
     pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<(LeastGapPoint, GapSample)> {
         self.nearest_within(z, hint, f64::INFINITY)
     }
 
-    /// Point of least gap at height `z` (mm) of body 1, and the gap there, if it is at most `reach` (mm): the place of
-    /// a wider gap is not always searched.
+    /// Point of smallest gap at height `z` (mm) of body 1, and the gap there, if it is at most `reach` (mm). The
+    /// position of a wider gap is not always searched.
     pub fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<(LeastGapPoint, GapSample)> {
         let (point, sample) = self.search(z, hint.roll, reach)?;
         hint.roll = Some(point.roll());
@@ -191,7 +191,7 @@ impl<'a> ProfilePair<'a> {
         self.scan_search(z).map(|point| (point, None))
     }
 
-    /// Whether both are plain helicoids on parallel axes, which nearly touch.
+    /// Whether both are plain helicoids on parallel axes that nearly touch.
     pub fn is_plain(&self) -> bool {
         self.single && self.guide.as_ref().is_some_and(FirstOrderGap::is_parallel)
     }

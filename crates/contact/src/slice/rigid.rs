@@ -1,4 +1,4 @@
-//! Where two flanks are nearest when nothing but their shape counts: rigid bodies.
+//! Finds the point at which two rigid flanks are nearest.
 
 use crate::{
     Pose, Vec3,
@@ -10,14 +10,14 @@ use crate::{
     },
 };
 
-/// Where two flanks are nearest along the profile at one height.
+/// The point at which two flanks are nearest along the profile at one height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestPoint {
-    /// Gap along the normal, mm; below zero where the flanks overlap.
+    /// Gap along the normal, mm; negative if the flanks overlap.
     pub gap: f64,
-    /// The place, common frame, mm: on the flank whose edge presses, or on body 1.
+    /// Position, common frame, mm: on the flank whose edge touches, otherwise on body 1.
     pub position: Vec3,
-    /// Unit direction in which body 1 is pushed: out of body 2, or into body 1 where an edge of body 2 presses.
+    /// Unit direction in which body 1 is pushed: out of body 2, or into body 1 if an edge of body 2 touches.
     pub normal: Vec3,
     /// Surface coordinates on each flank.
     pub at: [[f64; 2]; 2],
@@ -25,8 +25,7 @@ pub struct NearestPoint {
 
 /// Two rigid flanks with their bodies at given poses.
 ///
-/// Search and edges are those of two deformable flanks; nothing is known of what stands behind the flanks, so edges are
-/// sharp.
+/// Search and edges are those of two deformable flanks. The teeth behind the flanks are not known, so edges are sharp.
 #[derive(Debug, Clone, Copy)]
 pub struct RigidFlanks<'a> {
     poses: &'a [Pose; 2],
@@ -42,14 +41,14 @@ impl<'a> RigidFlanks<'a> {
         Self { poses, profiles: ProfilePair::new(patches, [&poses[0], &poses[1]]), deviation }
     }
 
-    /// Roll angle of body 1 where they are nearest at height `z` (mm), the gap there (mm) and its foot on body 2, all
-    /// seen from body 1 also where an edge of body 2 presses; `None` where they do not face each other.
+    /// Roll angle of body 1 at the smallest gap at height `z` (mm), the gap there (mm) and its foot point on body 2.
+    /// All are measured from body 1, even if an edge of body 2 touches. `None` if the flanks do not face each other.
     pub fn least_gap(&self, z: f64, hint: &mut SliceHint) -> Option<(f64, f64, [f64; 2])> {
         let (point, sample) = self.profiles.nearest_point(z, hint)?;
         Some((point.roll(), sample.gap + self.deviation([[point.roll(), z], sample.foot]), sample.foot))
     }
 
-    /// The least gap at height `z` to first order (mm), from which to which; `None` where nothing is faced.
+    /// First-order bounds of the smallest gap at height `z` (mm); `None` if the flank faces nothing.
     pub fn foretold(&self, z: f64) -> Option<[f64; 2]> {
         self.profiles.foretold(z).map(|[low, high]| [low - self.deviation, high + self.deviation])
     }
@@ -63,11 +62,11 @@ impl<'a> RigidFlanks<'a> {
         self.profiles.patches.iter().zip(at).map(|(patch, at)| patch.surface().deviation(at)).sum()
     }
 
-    /// Place where the flanks are nearest at height `z` (mm, body 1's own frame); `None` where they do not face each
-    /// other.
+    /// The point at which the flanks are nearest at height `z` (mm, body 1's own frame); `None` if they do not face
+    /// each other.
     ///
-    /// Gap and normal fit together: moving a body by a small d changes the gap by the normal's part of it, as the place
-    /// is a least one or stays on an edge.
+    /// Gap and normal are consistent: a small displacement d of a body changes the gap by its component along the
+    /// normal, because the point is a minimum or stays on an edge.
     pub fn nearest(&self, z: f64, hint: &mut SliceHint) -> Option<NearestPoint> {
         let (point, sample) = self.profiles.nearest_point(z, hint)?;
         let [first, second] = self.profiles.patches.map(FlankPatch::surface);

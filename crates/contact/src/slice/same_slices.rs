@@ -1,5 +1,5 @@
-//! The slices of a solved contact where the gears stand, and their compliance under its forces: what derivatives of the
-//! solution are made of. Theory (77).
+//! Slices of a solved contact at the positions of the gears, and their compliance under its forces, from which
+//! derivatives of the solution are computed. Theory (77).
 
 use faer::Mat;
 
@@ -11,17 +11,17 @@ use super::{
 };
 use crate::{BulkTable, ContactSet, Friction, Pose, TableWork, local::LocalLaws, nodal::ContactRow};
 
-/// Slices and their rows, pair by pair and by height.
+/// Slices and their rows, sorted by pair and height.
 #[derive(Debug, Clone, Default)]
 pub struct SameSlices {
-    /// Rows, gaps undeformed.
+    /// The rows with undeformed gaps.
     pub rows: Vec<ContactRow>,
     /// The slice of each row.
     pub slices: Vec<Slice>,
 }
 
 impl ContactSet {
-    /// The slices at the heights of `like` with the gears' frames at `poses`; `None` where the flanks do not face each
+    /// The slices at the heights of `like` with the gears' frames at `poses`; `None` if the flanks do not face each
     /// other at one of them.
     pub fn same_slices(&self, friction: Option<&Friction>, poses: &[Pose; 2], like: &SameSlices) -> Option<SameSlices> {
         let slice_set = self.slices()?;
@@ -50,7 +50,7 @@ impl ContactSet {
         Some(found)
     }
 
-    /// Memory to read the tables of both gears for up to `rows` rows; none where there are no tables.
+    /// Memory to read the tables of both gears for up to `rows` rows; empty if there are no tables.
     pub fn table_work(&self, rows: usize) -> Vec<TableWork> {
         self.tables().map(|both| both.iter().map(|_| TableWork::new(rows)).collect()).unwrap_or_default()
     }
@@ -61,7 +61,7 @@ impl ContactSet {
 }
 
 impl SameSlices {
-    /// Slices of a list of rows.
+    /// Selected slices of a list of rows.
     pub fn of(rows: &[ContactRow], slices: &[Slice], which: &[usize]) -> Self {
         Self {
             rows: which.iter().map(|&i| rows[i]).collect(),
@@ -69,12 +69,13 @@ impl SameSlices {
         }
     }
 
-    /// dR/dF under forces (N), mm/N; R: what the flanks are apart with their own deformation, 0 where they press.
+    /// dR/dF under forces (N), mm/N. R is the distance of the flanks including their own deformation; it is 0 where
+    /// they are in contact.
     ///
     /// ```text
     /// R_i = g_i + sum_j S_ij F_j + delta_i(F_i)
     /// ```
-    /// `work`: [`ContactSet::table_work`] of this set or of one with the same tables.
+    /// `work` is [`ContactSet::table_work`] of this set or of one with the same tables.
     pub fn compliance(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Mat<f64> {
         let n = self.rows.len();
         let matrix = self.bulk(set, work);

@@ -12,7 +12,7 @@ use crate::{
     slice::{HalfTeeth, Slice, SliceFlank},
 };
 
-/// What slice contact needs beside the flank patches, patch by patch of both gears.
+/// Data of slice contact in addition to the flank patches, patch by patch of both gears.
 #[derive(Debug)]
 pub struct SliceSet {
     stations: Vec<f64>,
@@ -36,7 +36,7 @@ impl SliceSet {
         Self::new(pair, Arc::clone(&self.behind), options)
     }
 
-    /// Bulk compliance of both gears in tables; `None` where it is exact.
+    /// Bulk compliance of both gears in tables; `None` if it is exact.
     pub fn bulk(&self) -> Option<&[BulkTable; 2]> {
         self.behind.bulk()
     }
@@ -56,7 +56,7 @@ impl SliceSet {
         self.has_corner_contact() || slice.local.off_line == 0.0
     }
 
-    /// Heights of the stations on the pinion, mm, ascending: those of slices of the common face.
+    /// Heights of the stations on the pinion, mm, ascending: those of the slices of the common face.
     pub fn stations(&self) -> &[f64] {
         &self.stations
     }
@@ -67,8 +67,8 @@ impl SliceSet {
         [0, 1].map(|i| SliceFlank { patch: &patches[i][number[i]], layer: self.behind.layer(i, number[i]) })
     }
 
-    /// Rows of the given pairs of patches with the gears at `poses` whose gap is at most `reach` (mm), in order of pair
-    /// and height.
+    /// Rows of the given pairs of patches, with the gears at `poses`, whose gap is at most `reach` (mm), in order of
+    /// pair and height.
     pub fn rows(
         &self,
         patches: [&[FlankPatch]; 2],

@@ -1,5 +1,5 @@
-//! A slice at which two smooth flanks touch: how its place, gap and directions follow small changes of depths and poses.
-//! Theory (77a).
+//! A slice at which two smooth flanks touch: derivatives of its position, gap and directions by small changes of depths
+//! and poses. Theory (77a).
 
 use geometry::modification::{Depth, DepthRate};
 
@@ -115,7 +115,7 @@ fn slope([less, here, more]: [Vec3; 3], size: f64) -> Option<Vec3> {
 }
 
 impl SmoothSlice {
-    /// `None` where an edge or a kink presses, or a flank deviates from its smooth surface.
+    /// `None` if an edge or a kink touches, or if a flank deviates from its smooth surface.
     pub fn new(pair: &FlankPair<'_>, poses: &[Pose; 2], row: &ContactRow, slice: &Slice) -> Option<Self> {
         let surfaces = pair.surfaces();
         if slice.local.deviation.is_some() || slice.local.edge_opening() != 0.0 || slice.local.off_line != 0.0 {
@@ -188,7 +188,7 @@ impl SmoothSlice {
         })
     }
 
-    /// Local contacts beside this one.
+    /// Local contacts next to this one, for differences.
     pub fn beside(&self, pair: &FlankPair<'_>, local: &LocalContact) -> [LocalContact; BESIDE] {
         std::array::from_fn(|i| {
             let by = if i % 2 == 0 { -1.0 } else { 1.0 };
@@ -203,8 +203,9 @@ impl SmoothSlice {
         })
     }
 
-    /// Rates of the row by the rates of both depths, under motions of both bodies; `None` where a depth has none.
-    /// `approaches`: those of [`SmoothSlice::beside`] under the row's force, mm; `pressure`: that under it.
+    /// Derivatives of the row from those of both depths, under motions of both bodies; `None` if a depth has none.
+    /// `approaches` are those of [`SmoothSlice::beside`] under the row's force, mm; `pressure` is that under this
+    /// force.
     pub fn rate(
         &self,
         motions: &[Motion; 2],
@@ -285,7 +286,7 @@ impl SmoothSlice {
         Some((depth.at(u + step, z)?.by_roll - depth.at(u - step, z)?.by_roll) / (2.0 * step * arc * arc))
     }
 
-    /// Rate of what of a direction of body 1's force is along the directions of body `b`.
+    /// Derivative of the components of a direction of body 1's force along the directions of body `b`.
     pub fn parts_rate(
         &self,
         b: usize,

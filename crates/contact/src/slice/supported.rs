@@ -1,4 +1,4 @@
-//! The nodes that rows rest on, where somebody asks for them: tables of compliance do without.
+//! Nodes that carry the rows. They are found on request, because tables of compliance do not need them.
 
 use crate::{
     ContactSet, FlankPair, Pose,
@@ -7,7 +7,7 @@ use crate::{
 };
 
 impl ContactSet {
-    /// Rows of slices with the gears' frames at `poses`, those with a force (N) with their nodes and weights.
+    /// Rows of slices with the gears' frames at `poses`; those with a force (N) have their nodes and weights.
     pub fn supported_rows(
         &self,
         poses: &[Pose; 2],

@@ -1,4 +1,4 @@
-//! Tooth layer: the half of a tooth behind a flank, which rests on its centre surface.
+//! Tooth layer: the half of a tooth behind a flank, bounded by the tooth's centre surface.
 
 use geometry::Flank;
 use reduction::LayerProfile;
@@ -19,8 +19,8 @@ pub struct ToothLayer {
 
 impl ToothLayer {
     /// The layer behind `flank`, of a material with Young's modulus `young` (MPa) and Poisson's ratio `poisson`,
-    /// clamped `overshoot` (mm) past the centre surface; `profile` is the layer's constant for that. The tip edge is
-    /// rounded by `edge_radius` (mm), or sharp (0).
+    /// clamped `overshoot` (mm) beyond the centre surface; `profile` is its layer constant. The tip edge is rounded by
+    /// `edge_radius` (mm), or sharp (0).
     pub fn new(
         flank: Flank,
         young: f64,
@@ -33,7 +33,7 @@ impl ToothLayer {
         Self { flank, cos_base_helix, young, poisson, profile, overshoot, edge_radius }
     }
 
-    /// Radius of the rounded tip edge, mm; 0: sharp.
+    /// Radius of the rounded tip edge, mm; 0: sharp edge.
     pub fn edge_radius(&self) -> f64 {
         self.edge_radius
     }

@@ -1,4 +1,4 @@
-//! Tooth changes of one side: when the window moves, and what changes with it.
+//! Tooth changes of one side: the motion of its window, and its consequences.
 
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, Pose, line::NeighbourPairs};
@@ -16,8 +16,8 @@ const LAST_DIGITS: f64 = 1e-9;
 pub struct ToothChanges {
     /// Number of tooth changes.
     pub count: u64,
-    /// Largest jump of the sum of normal forces across a change at the same place, N. Contact is solved anew in the new
-    /// window, so a force that was dropped shows here.
+    /// Largest jump of the sum of normal forces across a change at the same position, N. The contact is solved again in
+    /// the new window, so a force that was dropped appears here.
     pub jump: f64,
 }
 
@@ -52,10 +52,10 @@ impl MeshSide {
         Ok(())
     }
 
-    /// Refuses the window if a neighbouring pair outside it overlaps at the poses of the last evaluation.
+    /// Returns an error if a neighbouring pair outside the window overlaps at the poses of the last evaluation.
     ///
     /// # Errors
-    /// [`ale::AleError::Starved`].
+    /// [`ale::AleError::Starved`] if such a pair is found.
     pub fn check_neighbours(&mut self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
         // Without overlap nothing is loaded, and a neighbouring pair outside the window comes into contact last.
         let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
@@ -74,19 +74,19 @@ impl MeshSide {
         Ok(sliding.check_neighbours(station, *torque, 1e-3 * deepest, |running| neighbours.gap(running))?)
     }
 
-    /// Refuses gears that have turned past the whole window since it moved last.
+    /// Returns an error if the gears have rotated past the whole window since it last moved.
     ///
     /// # Errors
-    /// [`ale::AleError::Leapt`].
+    /// [`ale::AleError::Leapt`] if the gears have rotated too far.
     pub fn check_pace(&self, cycles: f64) -> Result<(), StaticError> {
         Ok(self.window.check_pace(cycles + self.ahead)?)
     }
 
-    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the
-    /// last evaluation; `cycles` are those that the gears have turned.
+    /// Moves the window by one tooth if that is due and the outgoing tooth is unloaded according to the last
+    /// evaluation. `cycles` are the mesh cycles that the gears have rotated.
     ///
-    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change
-    /// leaves no trace in the motion as long as no force is dropped.
+    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them. So a change
+    /// does not affect the motion as long as no force is dropped.
     pub fn follow(&mut self, pair: &GearPair, cycles: f64) -> Result<bool, StaticError> {
         let station = Station::at_cycles(cycles + self.ahead + LAST_DIGITS);
         let Some(next) = self.window.due_change(station, &self.contact.force().pair_forces)? else { return Ok(false) };

@@ -49,18 +49,18 @@ impl MeshSide {
         })
     }
 
-    /// Damping of the slices that carry force: force on the coordinates and power taken; -df/d(velocity) is added to
+    /// Damping of the loaded slices: force on the coordinates and dissipated power; -df/d(velocity) is added to
     /// `matrix`.
     ///
     /// ```text
     /// F_d = -c h dg/dt,  |F_d| <= F
     /// ```
-    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no
-    /// harder than they press, so that the force does not jump where contact begins.
+    /// Damping of separating flanks reduces their force at most to zero, so no flank pulls. Damping of approaching
+    /// flanks is at most their contact force, so the force does not jump where contact begins.
     ///
-    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole
-    /// compliance of the mesh, and its ratio does not mean another thing with every mode that is taken out of it. Modes
-    /// have dampers of their own.
+    /// dg/dt is the approach of the rigid bodies, even if modes are kept: the damper acts in parallel with the whole
+    /// compliance of the mesh. So the meaning of its ratio does not change with the number of modes. Modes have dampers
+    /// of their own.
     pub fn damping(
         &self,
         placed: &Placed,
@@ -80,8 +80,8 @@ impl MeshSide {
         (total, taken)
     }
 
-    /// -df/dd of the damping of slices that is held at their own force, which follows the displacements: N/mm, N, N mm.
-    /// `None` where none is held. After an evaluation with its tangent.
+    /// -df/dd of the damping of slices that is limited by their own force, which depends on the displacements: N/mm, N,
+    /// N mm. `None` if none is limited. To be called after an evaluation with its tangent.
     pub fn held_damping(
         &mut self,
         placed: &Placed,
@@ -104,8 +104,8 @@ impl MeshSide {
         Some(placed.generalised_slope(SMatrix::from_fn(|i, j| tangent[i][j])))
     }
 
-    /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any
-    /// flank pulls. Zeros without contact.
+    /// Sum and smallest value of the normal forces of the slices with their damping, N. The smallest one shows whether
+    /// any flank pulls. Zeros without contact.
     pub fn normal_forces(&self, placed: &Placed, rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
         for slice in self.damped_slices(placed, rate, per_length) {

@@ -1,4 +1,4 @@
-//! Forces of one side, with their slopes.
+//! Forces of one side, with their derivatives.
 
 use contact::{ContactError, Wrench, slice::EvaluationLevel};
 use geometry::GearPair;
@@ -23,11 +23,11 @@ pub(crate) struct SideForce {
 /// Forces on the modes of both gears, N t^(-1/2).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalForce {
-    /// Normal forces, m.
+    /// Normal forces, m entries.
     pub normal: DVector<f64>,
-    /// Friction, m.
+    /// Friction forces, m entries.
     pub friction: DVector<f64>,
-    /// -d(forces)/d(d, q), (12 + m) x (12 + m), where it was asked for.
+    /// -d(forces)/d(d, q), (12 + m) x (12 + m), if requested.
     pub stiffness: Option<DMatrix<f64>>,
 }
 
@@ -63,7 +63,7 @@ impl MeshSide {
         Ok(self.contact.strain_energy())
     }
 
-    /// Contact with the gears displaced and deformed; without `tangents` stiffness is any.
+    /// Contact with the gears displaced and deformed; without `tangents` the stiffness is undefined.
     pub fn evaluate(
         &mut self,
         pair: &GearPair,
@@ -98,8 +98,8 @@ impl MeshSide {
         Ok(SideForce { normal: all - friction, friction, stiffness, modal })
     }
 
-    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm;
-    /// negative where they are apart. With modes it overwrites the last evaluation.
+    /// Deepest overlap of the flanks at the position of the last evaluation, deformed only by the kept modes, mm;
+    /// negative if they are apart. With modes it overwrites the last evaluation.
     pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> f64 {
         // Where flanks overlap the deepest place is among the rows.
         let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));

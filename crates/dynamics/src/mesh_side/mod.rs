@@ -42,8 +42,8 @@ pub(super) struct MeshSide {
 }
 
 impl MeshSide {
-    /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the
-    /// pair's counting.
+    /// The side that carries the load according to `options`, at the beginning of a motion; `reference` are the options
+    /// that define the counting of the pairs.
     pub fn new(
         pair: &GearPair,
         gears: Arc<[ElasticGear; 2]>,
@@ -70,12 +70,12 @@ impl MeshSide {
         Ok(Self { options, gears, window, contact, home, ahead, slack, changes: ToothChanges::default() })
     }
 
-    /// Takes normal modes of both gears for coordinates of their own.
+    /// Makes normal modes of both gears separate coordinates.
     pub fn keep_modes(&mut self, modes: [Arc<GearModes>; 2]) -> Result<(), StaticError> {
         Ok(self.contact.keep_modes(&self.gears, modes)?)
     }
 
-    /// A copy of the side at its start; gears and tables are shared.
+    /// A copy of the side in its initial state; gears and tables are shared.
     pub fn copy_at_start(&self, pair: &GearPair) -> Result<Self, StaticError> {
         let (window, set) = self.home.clone();
         let mut copy_at_start = Self {
@@ -94,13 +94,14 @@ impl MeshSide {
         Ok(copy_at_start)
     }
 
-    /// A copy of the side at its start with the micro-geometry of another pair; gears are shared.
+    /// A copy of the side in its initial state with the micro-geometry of another pair; gears are shared.
     pub fn with_flanks_of(&self, pair: &GearPair) -> Result<Self, StaticError> {
         let set = ContactSet::new(pair, &self.gears, self.home.0.window(), &self.options.contact)?;
         Self { home: (self.home.0, set), ..self.copy_at_start(pair)? }.copy_at_start(pair)
     }
 
-    /// How much nearer pitch errors bring the flanks of this side, mm, tooth by tooth of both gears as they come.
+    /// Distance by which pitch errors bring the flanks of this side closer, mm, for the teeth of both gears in the
+    /// order in which they come into mesh.
     pub fn pitch_approaches(&self, pair: &GearPair) -> [Vec<f64>; 2] {
         pair.pitch_approaches(self.options.side(), self.options.contact.sense)
     }
@@ -115,7 +116,7 @@ impl MeshSide {
         self.options.contact.friction
     }
 
-    /// Turns of pinion and wheel in a mesh cycle, rad about +z.
+    /// Rotations of pinion and wheel in a mesh cycle, rad about +z.
     pub fn turns_per_cycle(&self, pair: &GearPair) -> [f64; 2] {
         let sense = self.options.contact.sense.sign() as f64;
         [sense * pair.pinion.pitch_angle(), -sense * pair.wheel.pitch_angle()]
@@ -128,7 +129,7 @@ impl MeshSide {
         Ok(copy)
     }
 
-    /// Takes the window that is due at a phase, in mesh cycles, with no tooth change counted.
+    /// Enters the window that is due at a phase, in mesh cycles, without counting a tooth change.
     pub fn begin_at(&mut self, pair: &GearPair, cycles: f64) -> Result<(), StaticError> {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
         let (count, sense) = (self.window.window().count(), self.options.contact.sense);
@@ -142,13 +143,13 @@ impl MeshSide {
         self.contact.force().pair_forces.iter().sum()
     }
 
-    /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
+    /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative if they are apart.
     pub fn undeformed_overlap(&mut self, poses: &[Pose; 2]) -> f64 {
         self.contact.overlap(poses)
     }
 
-    /// Place (mm), normal force (N), friction on the pinion (N), length (mm) and number of the pair of teeth, in the order in
-    /// which pairs come, of the slices that carried load in the last evaluation.
+    /// Loaded slices of the last evaluation: position (mm), normal force (N), friction on the pinion (N), length (mm),
+    /// and number of the tooth pair in the order in which pairs come into mesh.
     pub fn pressed(&self) -> impl Iterator<Item = (Vector3<f64>, f64, Vector3<f64>, f64, i64)> {
         let (set, window) = (self.contact.contact_set(), self.window.window());
         let sign = self.options.contact.sense.sign();
@@ -159,7 +160,7 @@ impl MeshSide {
         })
     }
 
-    /// Forgets forces and places of the last solution: what comes then depends on the state alone.
+    /// Discards forces and positions of the last solution, so that later results depend only on the state.
     pub fn forget(&mut self) {
         self.contact.forget_places();
     }
@@ -169,7 +170,7 @@ impl MeshSide {
         RootStress::new(pair, &self.gears)
     }
 
-    /// Slices that carried load in the last evaluation.
+    /// Loaded slices of the last evaluation.
     pub fn loaded_slices(&self) -> Vec<LoadedSlice> {
         let (contact, set) = (&self.contact, self.contact.contact_set());
         let loaded = contact
@@ -203,7 +204,7 @@ impl MeshSide {
         roots.of(&parts, loads.as_ref())
     }
 
-    /// Angles of the gears' own frames against the common one in their nominal motion, rad.
+    /// Angles of the gears' own frames relative to the common one in their nominal motion, rad.
     pub fn angles(&self, pair: &GearPair, cycles: f64) -> [f64; 2] {
         let poses = self.poses(pair, cycles, &Displacement::zeros());
         let pitches = [pair.pinion.pitch_angle(), pair.wheel.pitch_angle()];
@@ -214,7 +215,7 @@ impl MeshSide {
         })
     }
 
-    /// Frames of the matrices with the gears displaced by `d` from their nominal places.
+    /// Frames of the matrices with the gears displaced by `d` from their nominal positions.
     pub fn poses(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> [Pose; 2] {
         let station = Station::at_cycles(cycles + self.ahead);
         let turns = [d[COORDINATES - 1], d[2 * COORDINATES - 1] + self.slack];
@@ -223,7 +224,7 @@ impl MeshSide {
         displaced(nominal, &(*d).into())
     }
 
-    /// Frames of the matrices with the gears displaced, and what forces there do to the displacements.
+    /// Frames of the matrices with the gears displaced, and the effect of forces there on the displacements.
     pub fn placed(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Placed {
         let poses = self.poses(pair, cycles, d);
         Placed { work: generalised(&poses, &(*d).into()), poses }
@@ -234,12 +235,12 @@ impl MeshSide {
         &self.contact
     }
 
-    /// Whether a slice carried load in the last evaluation.
+    /// Whether any slice was loaded in the last evaluation.
     pub fn presses(&self) -> bool {
         self.contact.solver().forces().iter().any(|f| *f > 0.0)
     }
 
-    /// The flanks where they were evaluated last, with the gears moving at `rate`; without stress of the fillets.
+    /// State of the flanks at the last evaluation, with the gears moving at `rate`; without stress of the fillets.
     pub fn instant(&self, pair: &GearPair, placed: &Placed, rate: &Displacement, per_length: f64) -> FlankInstant {
         let force = self.sum_of_forces();
         FlankInstant {

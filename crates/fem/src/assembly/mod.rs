@@ -1,7 +1,7 @@
-//! From elements to the sparse stiffness and mass of a body.
+//! Assembles the sparse stiffness and mass of a body from its elements.
 //!
-//! Element matrices are computed in parallel, batch by batch; each range of columns then gathers its
-//! entries in element order. So the sums do not depend on the number of threads, to the last bit.
+//! Element matrices are computed in parallel, batch by batch. Then each range of columns gathers its entries in element
+//! order, so the sums have the same bits for any number of threads.
 
 mod pattern;
 
@@ -18,28 +18,28 @@ pub(crate) use pattern::check_blocks;
 /// Stiffness and mass of the free degrees of freedom.
 #[derive(Debug, Clone)]
 pub struct System {
-    /// K, N/mm.
+    /// Stiffness K, N/mm.
     pub stiffness: SymmetricMatrix,
-    /// Consistent M, t.
+    /// Consistent mass M, t.
     pub mass: SymmetricMatrix,
 }
 
 /// Stiffness K (N/mm) and consistent mass M (t) of the free degrees of freedom.
 ///
-/// Any number of threads gives the same bits.
+/// The result has the same bits for any number of threads.
 ///
 /// # Errors
-/// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`], and
-/// [`FemError::Shape`] when `dofs` is for another number of nodes.
+/// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`], and [`FemError::Shape`] if `dofs`
+/// was made for another number of nodes.
 pub fn assemble(mesh: &Mesh, material: &Material, dofs: &DofMap, options: &ElementOptions) -> Result<System, FemError> {
     let pattern = Pattern::new(mesh, dofs)?;
     Ok(System { stiffness: stiffness_on(&pattern, mesh, material, options)?, mass: mass_on(&pattern, mesh, material)? })
 }
 
-/// Stiffness K (N/mm) alone; see [`assemble`].
+/// Only the stiffness K (N/mm); see [`assemble`].
 ///
 /// # Errors
-/// As [`assemble`].
+/// The errors of [`assemble`].
 pub fn assemble_stiffness(
     mesh: &Mesh,
     material: &Material,
@@ -49,10 +49,10 @@ pub fn assemble_stiffness(
     stiffness_on(&Pattern::new(mesh, dofs)?, mesh, material, options)
 }
 
-/// Consistent mass M (t) alone; see [`assemble`].
+/// Only the consistent mass M (t); see [`assemble`].
 ///
 /// # Errors
-/// As [`assemble`].
+/// The errors of [`assemble`].
 pub fn assemble_mass(mesh: &Mesh, material: &Material, dofs: &DofMap) -> Result<SymmetricMatrix, FemError> {
     mass_on(&Pattern::new(mesh, dofs)?, mesh, material)
 }

@@ -1,4 +1,4 @@
-//! Which free nodes share an element: the block pattern of the lower triangle.
+//! Block pattern of the lower triangle: which free nodes share an element.
 
 use std::ops::Range;
 

@@ -4,12 +4,12 @@ use nalgebra::{SMatrix, Vector4};
 
 use super::BeamSection;
 
-/// Whether sections turn against the beam's axis.
+/// Whether cross-sections can rotate relative to the beam's axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BeamTheory {
-    /// Shear deformation and rotary inertia: short and thick beams.
+    /// With shear deformation and rotary inertia, for short and thick beams.
     Timoshenko,
-    /// Neither of them: the limit of slender beams.
+    /// Without shear deformation and rotary inertia: the limit of slender beams.
     Euler,
 }
 

@@ -5,12 +5,12 @@ use nalgebra::DMatrix;
 use super::{BeamSection, BeamTheory, NODE_COORDINATES, beam_gyroscopic, beam_mass, beam_stiffness};
 use crate::FemError;
 
-/// A length of shaft with one section.
+/// A piece of shaft with a constant section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamPiece {
     /// Length, mm, > 0.
     pub length: f64,
-    /// Section.
+    /// Section of the piece.
     pub section: BeamSection,
 }
 
@@ -19,16 +19,17 @@ const FAR_OFF: f64 = 1e-9;
 /// Largest share of a shaft's length that two places may lie apart and count as one, however slender it is.
 const LARGEST_MERGED: f64 = 1e-4;
 
-/// Distance (mm) up to which two places on a shaft are one: where moving a part by it is as small an error as the
-/// round-off of an element so short.
+/// Distance (mm) below which two positions on a shaft are treated as one. At this distance, moving a part causes as
+/// small an error as the round-off of an element of this length.
 ///
 /// ```text
 /// t = 10 sqrt(eps) L max(L/D, 1), at the most 1e-4 L      L: length of the shaft, D: its least outer diameter, mm
 /// ```
-/// An element of length t is stiffer in shear than the shaft in bending by some L^3/(t D^2), so that its round-off is
-/// eps L^3/(t D^2) of the shaft's own stiffness; moving a part by t changes that by t/L. Both are sqrt(eps) L/D without the
-/// factor, which gives more to the second: what it does to a result is smooth, and a resonance multiplies round-off. For
-/// usual shafts t/L is 1e-6. Lengths all twice as large make it twice as large.
+/// An element of length t is stiffer in shear than the shaft in bending by about L^3/(t D^2), so its round-off is eps
+/// L^3/(t D^2) of the shaft's own stiffness. Moving a part by t changes that stiffness by t/L. Without
+/// the factor 10 both errors are sqrt(eps) L/D. The factor makes the second one larger, because its effect on a result
+/// is smooth, while a resonance multiplies round-off. For usual shafts t/L is 1e-6. The distance is proportional to the
+/// size of the shaft.
 pub fn coincidence(length: f64, diameter: f64) -> f64 {
     (10.0 * f64::EPSILON.sqrt() * (length / diameter).max(1.0)).min(LARGEST_MERGED) * length
 }
@@ -54,25 +55,25 @@ fn ends_and_nodes(pieces: &[BeamPiece], places: &[f64], near: f64) -> (Vec<f64>,
     (ends, nodes)
 }
 
-/// A free stepped shaft from z = 0 on, cut into beam elements.
+/// A free stepped shaft that starts at z = 0, divided into beam elements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamLine {
     positions: Vec<f64>,
-    /// Stiffness of all nodes' coordinates, six a node.
+    /// Stiffness in the coordinates of all nodes, six per node.
     pub stiffness: DMatrix<f64>,
-    /// Consistent mass of the same.
+    /// Consistent mass in the same coordinates.
     pub mass: DMatrix<f64>,
-    /// Gyroscopic matrix of the same for a spin of 1 rad/s about +z (`beam_gyroscopic`).
+    /// Gyroscopic matrix in the same coordinates for a spin of 1 rad/s about +z (`beam_gyroscopic`).
     pub gyroscopic: DMatrix<f64>,
 }
 
 impl BeamLine {
-    /// Pieces one after the other, with nodes at their ends and at `places` (mm), elements no longer than `longest`
-    /// (mm). What lies nearer together than [`coincidence`] shares a node: an element that short would cost more digits
-    /// than it moves.
+    /// Joins pieces in order. Nodes lie at the ends of the pieces and at `places` (mm); elements are at most `longest`
+    /// (mm). Positions closer than [`coincidence`] share a node, because a shorter element would cost more accuracy
+    /// than moving the position.
     ///
     /// # Errors
-    /// [`FemError::Length`] where a length is not positive or a place is not on the shaft.
+    /// [`FemError::Length`] if a length is not positive or a place is not on the shaft.
     pub fn new(pieces: &[BeamPiece], places: &[f64], longest: f64, theory: BeamTheory) -> Result<Self, FemError> {
         let bad = |length_mm: f64| FemError::Length { length_mm };
         let total: f64 = pieces.iter().map(|p| p.length).sum();
@@ -118,7 +119,7 @@ impl BeamLine {
         Ok(Self { positions, stiffness, mass, gyroscopic })
     }
 
-    /// A shaft without length, mass and stiffness: one node at z = 0.
+    /// A shaft without length, mass and stiffness: a single node at z = 0.
     pub fn point() -> Self {
         let [stiffness, mass, gyroscopic] = [0; 3].map(|_| DMatrix::zeros(NODE_COORDINATES, NODE_COORDINATES));
         Self { positions: vec![0.0], stiffness, mass, gyroscopic }

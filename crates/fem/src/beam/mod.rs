@@ -1,7 +1,7 @@
-//! Straight shafts as beams along z, with the coordinates of a gear at every node.
+//! Straight shafts as beams along z; every node has the same coordinates as a gear.
 //!
-//! Coordinates of a node: displacements x, y, z (mm), turns about x, y, z (rad). In bending u_x' = theta_y and u_y' =
-//! -theta_x, but for shear.
+//! Coordinates of a node: displacements x, y, z (mm), rotations about x, y, z (rad). In bending, without shear, u_x' =
+//! theta_y and u_y' = -theta_x.
 
 mod element;
 mod line;
@@ -12,5 +12,5 @@ use element::{beam_gyroscopic, beam_mass, beam_stiffness};
 pub use line::{BeamLine, BeamPiece, coincidence};
 pub use section::BeamSection;
 
-/// Coordinates of a node.
+/// Number of coordinates of a node.
 pub const NODE_COORDINATES: usize = 6;

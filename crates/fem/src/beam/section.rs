@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::{FemError, Material};
 
-/// A round section of a shaft.
+/// A round section of a shaft, solid or hollow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSection {
     outer: f64,
@@ -13,7 +13,7 @@ pub struct BeamSection {
 }
 
 impl BeamSection {
-    /// Outer and inner diameter, mm; inner 0: solid.
+    /// A section with outer and inner diameter, mm; inner diameter 0: solid.
     ///
     /// # Errors
     /// [`FemError::Section`] unless 0 <= inner < outer.
@@ -30,7 +30,7 @@ impl BeamSection {
         self.outer
     }
 
-    /// Material.
+    /// Material of the shaft.
     pub fn material(&self) -> &Material {
         &self.material
     }
@@ -83,7 +83,7 @@ impl BeamSection {
         self.material.density_t_per_mm3() * self.area()
     }
 
-    /// Inertia about a diameter per length, rho I, t mm. About the axis it is twice that.
+    /// Mass moment of inertia about a diameter per length, rho I, t mm. About the axis it is twice as large.
     pub fn inertia_per_length(&self) -> f64 {
         self.material.density_t_per_mm3() * self.second_moment()
     }

@@ -1,4 +1,4 @@
-//! Blocks of a symmetric matrix, lower triangle row by row.
+//! Node blocks of a symmetric matrix: its lower triangle, stored row by row.
 
 /// Place of block (i, j), i >= j, in a lower triangle stored row by row.
 pub(crate) const fn block_index(i: usize, j: usize) -> usize {

@@ -1,4 +1,4 @@
-//! From reference to true coordinates: shape function tables, Jacobians, gradients.
+//! From reference to physical coordinates: tables of shape functions, Jacobians, gradients.
 
 use mesh::{
     ElementKind,

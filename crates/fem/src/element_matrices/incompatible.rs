@@ -1,11 +1,11 @@
-//! Incompatible bending modes of hex8: three bubbles 1 - xi_k^2, each with a vector of three amplitudes.
+//! Incompatible bending modes of hex8: three bubble functions 1 - xi_k^2, each with a vector of three amplitudes.
 //!
 //! ```text
 //! u = sum N_i u_i + sum_k (1 - xi_k^2) alpha_k,     grad (1 - xi_k^2) := (det J0 / det J) J0^-T d(1 - xi_k^2)/dxi
 //! K = K_uu - K_ua K_aa^-1 K_au,                     alpha = -K_aa^-1 K_au u
 //! ```
-//! J0 is the Jacobian at the centre. With the ratio the bubbles' strains integrate to zero on any element,
-//! so that a state of constant stress does no work on them and the patch test is passed.
+//! J0 is the Jacobian at the centre. With the ratio the strains of the bubbles integrate to zero on any element. So a
+//! state of constant stress does no work on them, and the patch test is passed.
 
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 

@@ -135,10 +135,10 @@ impl MassKernel {
     }
 }
 
-/// Stiffness matrix of one element, 3n x 3n (N/mm); row 3i + axis belongs to local node i.
+/// Stiffness matrix of one element, 3n x 3n (N/mm). Row 3i + axis belongs to local node i.
 ///
 /// # Errors
-/// [`FemError::Shape`] for a wrong number of nodes, [`FemError::Inverted`] with that `tag`.
+/// [`FemError::Shape`] for a wrong number of nodes, [`FemError::Inverted`] with the given `tag`.
 pub fn element_stiffness(
     kind: ElementKind,
     coordinates_mm: &[[f64; 3]],
@@ -168,7 +168,7 @@ pub fn element_stiffness(
 /// Consistent mass matrix of one element for one direction, n x n (t).
 ///
 /// # Errors
-/// As [`element_stiffness`].
+/// The errors of [`element_stiffness`].
 pub fn element_mass(
     kind: ElementKind,
     coordinates_mm: &[[f64; 3]],

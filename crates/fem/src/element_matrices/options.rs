@@ -1,37 +1,38 @@
-//! Which variant of an element is meant.
+//! Variants of the elements.
 
-/// Enhancement of hex8 against locking in bending.
+/// Incompatible modes of hex8 against locking in bending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
 pub enum IncompatibleModes {
-    /// Three quadratic modes an axis with the Jacobian of the centre and the ratio det J0 / det J, so that
-    /// distorted elements pass the patch test. Source: Taylor, Beresford and Wilson, IJNME 10, 1976.
+    /// Three quadratic modes per axis with the Jacobian at the centre and the ratio det J0 / det J, so that distorted
+    /// elements pass the patch test. Source: Taylor, Beresford and Wilson, IJNME 10, 1976.
     #[default]
     Taylor,
-    /// Incompatible modes without the ratio, as some other programs have them: fails the patch test slightly on
-    /// distorted elements. For comparison with them.
+    /// Incompatible modes without the ratio, as in some other programs. Distorted elements fail the patch test
+    /// slightly. For comparison with those programs.
     WithoutJacobianRatio,
-    /// Plain hex8: locks in bending. For comparison.
+    /// Plain hex8, which locks in bending. For comparison.
     Off,
 }
 
-/// Points of integration for the stiffness of hex20.
+/// Integration points for the stiffness of hex20.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
 pub enum Integration {
-    /// 3 x 3 x 3 points: no zero modes but the rigid ones.
+    /// 3 x 3 x 3 points: the only zero modes are the rigid-body modes.
     Full,
-    /// 2 x 2 x 2 points: softer, and on coarse meshes much nearer to the limit (six elements along the profile of a
-    /// tooth: transmission error 0.3 % below it, with 27 points 1 %). Each element has six zero modes more; they die
-    /// out where elements lie side by side, but not along a single stack, which is then refused as movable.
+    /// 2 x 2 x 2 points: softer, and on coarse meshes much nearer to the limit. With six elements along the profile of
+    /// a tooth the transmission error is 0.3 % below the limit, with 27 points 1 %. Each element has six additional
+    /// zero modes. They are suppressed where elements lie side by side, but not in a single stack of elements, which is
+    /// rejected as not positive definite.
     #[default]
     Reduced,
 }
 
-/// Poisson's ratio from which elements of a kind, as the program integrates them, are too stiff by volumetric locking;
-/// `None` where they are not up to 0.499.
+/// Poisson's ratio from which elements of a kind, as integrated here, are too stiff by volumetric locking; `None` if
+/// they do not lock up to 0.499.
 ///
-/// A cube of 4 x 4 x 4 cells under a quarter of its top, sides held, deflects at 0.499 less than it should by 94 %
-/// (tet4), 88 % (wedge6), 20 % (hex27), 17 % (tet10), 12 % (wedge15); at 0.3 by 24, 16, 0, 7 and 4 %. Source: own
-/// measurement, `ale-gear envelope --only F11`.
+/// Test: a cube of 4 x 4 x 4 cells, loaded on a quarter of its top, with its sides held. At 0.499 its deflection is too
+/// small by 94 % (tet4), 88 % (wedge6), 20 % (hex27), 17 % (tet10), 12 % (wedge15); at 0.3 by 24, 16, 0, 7 and 4 %.
+/// Source: own measurement, `ale-gear envelope --only F11`.
 pub fn locks_from(kind: mesh::ElementKind) -> Option<f64> {
     use mesh::ElementKind as Kind;
     match kind {
@@ -44,8 +45,8 @@ pub fn locks_from(kind: mesh::ElementKind) -> Option<f64> {
 /// Variants of the elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
 pub struct ElementOptions {
-    /// For hex8.
+    /// Incompatible modes of hex8.
     pub incompatible_modes: IncompatibleModes,
-    /// For hex20.
+    /// Integration points of hex20.
     pub integration: Integration,
 }

@@ -1,25 +1,25 @@
-//! A factor as lists and numbers, to be written down and made of them again.
+//! A factor as plain lists and numbers, to be saved and restored.
 
 use super::{BoundaryLastFactor, structure::Structure};
 use crate::ordering::{Ordering, try_zeroed};
 
-/// What a [`BoundaryLastFactor`] consists of.
+/// Content of a [`BoundaryLastFactor`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeptFactor {
-    /// Matrix rows in order of elimination, the boundary last.
+    /// Matrix rows in the order of elimination, the boundary last.
     pub order: Vec<u32>,
-    /// Rows that are not of the boundary.
+    /// Number of interior rows, those not on the boundary.
     pub interior: u32,
-    /// Columns of each supernode.
+    /// Number of columns of each supernode.
     pub widths: Vec<u32>,
     /// Rows of L below the triangle of each supernode, ascending.
     pub rows: Vec<Vec<u32>>,
-    /// Of each column of L the entries from the diagonal down, explicit zeros inside supernodes included.
+    /// Entries of each column of L from the diagonal down, including explicit zeros inside supernodes.
     pub values: Vec<f64>,
 }
 
 impl BoundaryLastFactor {
-    /// What the factor consists of; `None` where a row has no number of 32 bits.
+    /// Content of the factor; `None` if a row number does not fit into 32 bits.
     pub fn to_kept(&self) -> Option<KeptFactor> {
         u32::try_from(self.n()).ok()?;
         let narrow = |rows: &[usize]| rows.iter().map(|&row| row as u32).collect::<Vec<u32>>();
@@ -41,7 +41,7 @@ impl BoundaryLastFactor {
         })
     }
 
-    /// The factor that consists of these parts, with the same bits; `None` where they do not fit together.
+    /// Restores a factor with the same bits; `None` if the parts are inconsistent.
     pub fn from_kept(kept: &KeptFactor) -> Option<Self> {
         let KeptFactor { order, interior, widths, rows, values: packed } = kept;
         let (n, interior) = (order.len(), *interior as usize);

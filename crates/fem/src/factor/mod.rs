@@ -1,13 +1,13 @@
-//! One sparse Cholesky factor that holds the condensed stiffness, the compliance and the constraint modes. Theory (13).
+//! One sparse Cholesky factor that gives the condensed stiffness, the compliance and the constraint modes. Theory (13).
 //!
-//! With the interior I eliminated first and the boundary B last, `K = L L'` reads
+//! If the interior I is eliminated first and the boundary B last, `K = L L'` reads
 //!
 //! ```text
 //! K_II = L_II L_II',   K_BI = L_BI L_II',   K^ = K_BB - K_BI K_II^-1 K_IB = L_BB L_BB'
 //! C = K^^-1 = L_BB^-T L_BB^-1,              Phi_IC = -K_II^-1 K_IB = -L_II^-T L_BI'
 //! ```
-//! so that K^ and C come without a single solve, and interior displacements by back substitution alone.
-//! Source: the Schur complement of Guyan, AIAA J. 3(2), 1965; multifrontal view of Liu, SIAM Review 34, 1992.
+//! So K^ and C follow without a single solve, and interior displacements by back substitution alone. Source: Schur
+//! complement of Guyan, AIAA J. 3(2), 1965; multifrontal method of Liu, SIAM Review 34, 1992.
 
 mod kept;
 mod part;
@@ -46,9 +46,9 @@ use structure::Structure;
 /// Gears have ratios above 1e-8 even where an element is a thousand times thinner than the body.
 const SMALLEST_PIVOT_RATIO: f64 = 1e-12;
 
-/// Cholesky factor of a symmetric positive definite matrix with chosen degrees of freedom last.
+/// Cholesky factor of a symmetric positive definite matrix in which chosen degrees of freedom come last.
 ///
-/// All results are the same bits for any number of threads. Columns are in the order of `boundary`.
+/// All results have the same bits for any number of threads. Columns are in the order of `boundary`.
 pub struct BoundaryLastFactor {
     ordering: Ordering,
     structure: Structure,
@@ -57,28 +57,29 @@ pub struct BoundaryLastFactor {
 }
 
 impl BoundaryLastFactor {
-    /// Factors `stiffness` with `boundary` (matrix rows, in the order wanted) last. May be empty.
+    /// Factors `stiffness` with the matrix rows `boundary` last, in the given order. `boundary` may be empty.
     ///
     /// # Errors
-    /// [`FemError::NotPositiveDefinite`] when something can move freely, [`FemError::BadDof`],
-    /// [`FemError::NotFinite`], [`FemError::OutOfMemory`], [`FemError::TooLarge`], [`FemError::Ordering`].
+    /// [`FemError::NotPositiveDefinite`] if some part can move freely; [`FemError::BadDof`], [`FemError::NotFinite`],
+    /// [`FemError::OutOfMemory`], [`FemError::TooLarge`], [`FemError::Ordering`].
     pub fn new(stiffness: &SymmetricMatrix, boundary: &[usize]) -> Result<Self, FemError> {
         Self::new_while(stiffness, boundary, &|| true)
     }
 
-    /// Factor for who may lose interest: before and after ordering and factor `wanted` says whether it is.
+    /// As [`BoundaryLastFactor::new`], but can be cancelled: before and after ordering and factorisation `wanted` is
+    /// asked whether to continue.
     ///
     /// # Errors
-    /// As [`BoundaryLastFactor::new`], and [`FemError::Unwanted`].
+    /// The errors of [`BoundaryLastFactor::new`], and [`FemError::Unwanted`].
     pub fn new_while(stiffness: &SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
         Self::of(Cow::Borrowed(stiffness), boundary, wanted)
     }
 
-    /// Factor of a matrix that goes as soon as it has been brought into the order of elimination: beside the factor only
-    /// one copy of it is held.
+    /// Factors a matrix and frees it as soon as it has been permuted into the order of elimination. Only one copy of it
+    /// is in memory beside the factor.
     ///
     /// # Errors
-    /// As [`BoundaryLastFactor::new_while`].
+    /// The errors of [`BoundaryLastFactor::new_while`].
     pub fn in_place_of(stiffness: SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
         Self::of(Cow::Owned(stiffness), boundary, wanted)
     }
@@ -174,12 +175,12 @@ impl BoundaryLastFactor {
         self.ordering.forward.len()
     }
 
-    /// The boundary's matrix rows, in the order of the condensed matrices.
+    /// Matrix rows of the boundary, in the order of the condensed matrices.
     pub fn boundary(&self) -> &[usize] {
         &self.boundary
     }
 
-    /// Entries of L below and on the diagonal, explicit zeros inside supernodes included.
+    /// Number of entries of L below and on the diagonal, including explicit zeros inside supernodes.
     pub fn nonzeros(&self) -> usize {
         self.supernodes().map(|s| s.columns * (s.columns + 1) / 2 + s.columns * s.pattern.len()).sum()
     }
@@ -200,7 +201,7 @@ impl BoundaryLastFactor {
         dense::inverse_of_product(self.boundary_factor().as_ref())
     }
 
-    /// L_BB, n_B x n_B, zeros above the diagonal: K^ = L_BB L_BB'.
+    /// L_BB of K^ = L_BB L_BB', n_B x n_B, with zeros above the diagonal.
     pub fn boundary_factor(&self) -> Mat<f64> {
         let (interior, size) = (self.ordering.interior, self.boundary.len());
         let mut l = Mat::zeros(size, size);

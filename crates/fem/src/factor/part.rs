@@ -1,4 +1,4 @@
-//! The part of a factor that some freedoms depend on.
+//! The part of a factor on which some degrees of freedom depend.
 
 use faer::{MatMut, MatRef};
 

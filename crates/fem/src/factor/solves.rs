@@ -1,4 +1,4 @@
-//! Fields, forces and solutions that a factor gives by substitution, column block by column block.
+//! Displacements, forces and solutions from a factor by substitution, one block of columns after the other.
 
 use faer::{Mat, MatMut, MatRef};
 use rayon::prelude::*;
@@ -10,16 +10,16 @@ use crate::FemError;
 pub(super) const COLUMN_BLOCK: usize = 64;
 
 impl BoundaryLastFactor {
-    /// Displacement of every degree of freedom for given boundary displacements, interior unloaded.
+    /// Displacement of every degree of freedom for given boundary displacements, with the interior unloaded.
     ///
     /// ```text
     /// u = T u_B = [Phi_IC u_B; u_B],   L_II' u_I = -L_BI' u_B
     /// ```
-    /// `boundary`: n_B x k (mm); result: n x k (mm) in the matrix's own numbering. The same map carries any
-    /// boundary quantity, velocities for instance.
+    /// `boundary`: n_B x k (mm); result: n x k (mm) in the numbering of the matrix. The same map holds for any boundary
+    /// quantity, such as velocities.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `boundary` does not have n_B rows.
+    /// [`FemError::Shape`] if `boundary` does not have n_B rows.
     pub fn expand(&self, boundary: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.boundary.len(), boundary.nrows())?;
@@ -36,16 +36,18 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Displacement of every degree of freedom under forces on the interior, the boundary held where it is.
+    /// Displacement of every degree of freedom under forces on the interior, with the boundary held at given
+    /// displacements.
     ///
     /// ```text
     /// u = [u_I; u_B],   u_I = K_II^-1 (f_I - K_IB u_B)
     /// ```
-    /// `force`: n x k (N) in the matrix's own numbering, its boundary rows have no effect; `boundary`: n_B x k (mm);
+    /// `force`: n x k (N) in the numbering of the matrix, its boundary rows have no effect; `boundary`: n_B x k (mm);
     /// result: n x k (mm).
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `force` does not have n rows, `boundary` not n_B, or they differ in columns.
+    /// [`FemError::Shape`] if `force` does not have n rows, `boundary` does not have n_B rows, or they have different
+    /// numbers of columns.
     pub fn solve_held(&self, force: MatRef<'_, f64>, boundary: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.n(), force.nrows())?;
@@ -66,10 +68,10 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Rows `wanted` of [`BoundaryLastFactor::expand`], in that order.
+    /// Rows `wanted` of [`BoundaryLastFactor::expand`], in this order.
     ///
-    /// Back substitution passes over all branches of the elimination tree that hold none of them: for one region of a
-    /// gear that is most of the factor.
+    /// Back substitution skips all branches of the elimination tree without a wanted row. For one region of a gear
+    /// these are most of the factor.
     ///
     /// # Errors
     /// [`FemError::Shape`] as for [`BoundaryLastFactor::expand`]; [`FemError::BadDof`] for a degree of freedom that
@@ -93,16 +95,16 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Forces on the boundary that do the same work as given forces on all degrees of freedom.
+    /// Forces on the boundary that do the same work as the given forces on all degrees of freedom.
     ///
     /// ```text
     /// f^ = T' f = f_B - L_BI L_II^-1 f_I
     /// ```
-    /// `force`: n x k (N) in the matrix's own numbering; result: n_B x k (N). The adjoint of
+    /// `force`: n x k (N) in the numbering of the matrix; result: n_B x k (N). The adjoint of
     /// [`BoundaryLastFactor::expand`].
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `force` does not have n rows.
+    /// [`FemError::Shape`] if `force` does not have n rows.
     pub fn condense(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.n(), force.nrows())?;
@@ -118,10 +120,10 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Solves K x = b in place for one or many columns; `rhs`: n x k, b (N) in, x (mm) out.
+    /// Solves K x = b in place for one or many columns. `rhs`: n x k, on entry b (N), on return x (mm).
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `rhs` does not have n rows.
+    /// [`FemError::Shape`] if `rhs` does not have n rows.
     pub fn solve(&self, rhs: MatMut<'_, f64>) -> Result<(), FemError> {
         check_rows(self.n(), rhs.nrows())?;
         let whole = self.whole();
@@ -134,9 +136,10 @@ impl BoundaryLastFactor {
         Ok(())
     }
 
-    /// Rows `wanted` of K^-1 b, in that order; `rhs`: n x k, b (N).
+    /// Rows `wanted` of K^-1 b, in this order; `rhs`: n x k, b (N).
     ///
-    /// Forward substitution passes over what meets zeros only, back substitution over branches without a wanted row.
+    /// Forward substitution skips branches whose right-hand side is zero; back substitution skips branches without a
+    /// wanted row.
     ///
     /// # Errors
     /// [`FemError::Shape`], [`FemError::BadDof`] as for [`BoundaryLastFactor::expand_rows`].
@@ -156,13 +159,13 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Rows `wanted` of K^-1 b, in that order, for columns b of a few forces each: freedom and force, N.
+    /// Rows `wanted` of K^-1 b, in this order, for columns b with a few forces each: degree of freedom and force, N.
     ///
-    /// Only branches of the elimination tree that hold a force or a wanted row are gone through or have memory: the
-    /// columns of one tooth of a gear take a share of the factor that hardly grows with the number of teeth.
+    /// Only branches of the elimination tree with a force or a wanted row are visited and need memory. The columns of
+    /// one tooth of a gear need a share of the factor that hardly grows with the number of teeth.
     ///
     /// # Errors
-    /// [`FemError::BadDof`] for a freedom that does not exist.
+    /// [`FemError::BadDof`] for a degree of freedom that does not exist.
     pub fn solve_few(&self, forces: &[Vec<(usize, f64)>], wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         let placed = |column: &Vec<(usize, f64)>| -> Result<Vec<(usize, f64)>, FemError> {
             let dofs: Vec<usize> = column.iter().map(|force| force.0).collect();

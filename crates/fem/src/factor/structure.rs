@@ -1,4 +1,4 @@
-//! Where the entries of a supernodal factor stand.
+//! Structure of a supernodal factor: the positions of its entries.
 
 use faer::{MatRef, sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky};
 

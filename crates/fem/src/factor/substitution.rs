@@ -1,4 +1,4 @@
-//! Forward and backward substitution through the supernodes, as far as a chosen column.
+//! Forward and backward substitution through the supernodes, up to a chosen column.
 
 use faer::{
     Accum, Mat, MatMut, MatRef, Par,

@@ -1,4 +1,4 @@
-//! The graph that is dissected: groups of degrees of freedom and who couples with whom.
+//! The graph for the dissection: groups of degrees of freedom and their couplings.
 
 use crate::{FemError, SymmetricMatrix};
 

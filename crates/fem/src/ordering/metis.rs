@@ -1,4 +1,4 @@
-//! The one call into the METIS library.
+//! The only call into the METIS library.
 #![allow(unsafe_code)] // a C function; the lengths it relies on are checked right here
 
 use std::{collections::HashSet, ptr, sync::Mutex};

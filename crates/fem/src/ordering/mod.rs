@@ -1,8 +1,7 @@
-//! In which order to eliminate: nested dissection of the interior, chosen degrees of freedom last.
+//! Order of elimination: nested dissection of the interior, chosen degrees of freedom last.
 //!
-//! METIS dissects the graph of nodes (degrees of freedom that share all their neighbours count as one
-//! node); a postorder of the elimination tree then brings columns of equal structure together, which gives
-//! fewer and larger supernodes at the same fill.
+//! METIS dissects the graph of nodes; degrees of freedom with the same neighbours count as one node. A postorder of the
+//! elimination tree then groups columns of equal structure. This gives fewer and larger supernodes with the same fill.
 
 mod graph;
 mod metis;
@@ -34,12 +33,12 @@ pub struct Ordering {
     pub forward: Vec<usize>,
     /// `inverse[old] = new`.
     pub inverse: Vec<usize>,
-    /// Number of interior degrees of freedom; the others come last, in the order given.
+    /// Number of interior degrees of freedom; the others come last, in the given order.
     pub interior: usize,
 }
 
 impl Ordering {
-    /// Nested dissection of everything but `last` (matrix rows), then `last` as given.
+    /// Nested dissection of all matrix rows except `last`, followed by `last` in the given order.
     ///
     /// # Errors
     /// [`FemError::BadDof`] for a row that does not exist or is named twice, [`FemError::TooLarge`],

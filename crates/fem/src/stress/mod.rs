@@ -1,9 +1,9 @@
-//! Stress at nodes from displacements.
+//! Stress at nodes, computed from displacements.
 //!
-//! In each element the stress is evaluated at the points where it is most accurate (hex: 2^3 Gauss points,
-//! tet10: 4, tet4: 1, wedge: 3 x 2), carried to the nodes by the linear field through these points, and
-//! averaged over the elements of a node. For hex8 the incompatible modes' strains are included.
-//! Source of the points: Barlow, IJNME 10, 1976.
+//! In each element the stress is evaluated at the points where it is most accurate (hex: 2^3 Gauss points, tet10: 4,
+//! tet4: 1, wedge: 3 x 2). The linear field through these points is extrapolated to the nodes and averaged over the
+//! elements of a node. For hex8 the strains of the incompatible modes are included. Source of the points: Barlow, IJNME
+//! 10, 1976.
 //!
 //! Components: xx, yy, zz, xy, yz, zx, MPa.
 
@@ -24,11 +24,11 @@ type NodalStress = Vec<[f64; 6]>;
 
 /// Stress at every node (MPa) from the displacement of every node (mm).
 ///
-/// Nodes of no element get zero. The same bits for any number of threads.
+/// Nodes that belong to no element get zero. The result has the same bits for any number of threads.
 ///
 /// # Errors
-/// [`FemError::Shape`] when there is not one displacement a node; [`FemError::Inverted`],
-/// [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`].
+/// [`FemError::Shape`] if there is not one displacement per node; [`FemError::Inverted`], [`FemError::NodeOutOfRange`],
+/// [`FemError::RaggedBlock`].
 pub fn nodal_stress(
     mesh: &Mesh,
     material: &Material,
@@ -39,11 +39,11 @@ pub fn nodal_stress(
     Ok(all.into_iter().next().unwrap_or_default())
 }
 
-/// [`nodal_stress`] of several displacements at the nodes that are `wanted`; the others have zero. What belongs to the
-/// shape of an element is found once for all displacements, and elements without a wanted node are passed over.
+/// [`nodal_stress`] for several displacement fields at the `wanted` nodes; other nodes get zero. Quantities that depend
+/// only on the shape of an element are computed once for all fields. Elements without a wanted node are skipped.
 ///
 /// # Errors
-/// As [`nodal_stress`], of the elements about wanted nodes.
+/// The errors of [`nodal_stress`], for elements with wanted nodes.
 pub fn nodal_stresses(
     mesh: &Mesh,
     material: &Material,
@@ -111,12 +111,12 @@ fn principal_range(stress: &[f64; 6]) -> [f64; 2] {
     [values.min(), values.max()]
 }
 
-/// Stress at chosen nodes as a linear map of the free displacements: the stress modes' left factor.
+/// Stress at chosen nodes as a linear map of the free displacements: the left factor of stress modes.
 ///
 /// ```text
 /// sigma = S u,   row 6 i + k: component k at the i-th node asked for   [MPa/mm]
 /// ```
-/// Stress modes of a reduced body are S applied to its expanded boundary displacements.
+/// The stress modes of a reduced body are S times its expanded boundary displacements.
 #[derive(Debug, Clone)]
 pub struct StressOperator {
     /// For each node asked for: (free node, 6 x 3 block, row-major).
@@ -125,10 +125,10 @@ pub struct StressOperator {
 }
 
 impl StressOperator {
-    /// Prepares the map for `nodes`; displacements of fixed nodes are zero.
+    /// Prepares the map for `nodes`. Displacements of fixed nodes are zero.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node does not exist;
+    /// [`FemError::Shape`] if `dofs` was made for another number of nodes or a node does not exist;
     /// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`].
     pub fn new(
         mesh: &Mesh,
@@ -177,15 +177,16 @@ impl StressOperator {
         Ok(Self { rows, free_count: dofs.free_count() })
     }
 
-    /// Stress on free surfaces, from the displacement of their faces alone: strains in the tangent plane, no stress
-    /// across it. Theory (22c), (22d).
+    /// Stress on free surfaces, computed only from the displacement of their faces: strains in the tangent plane, no
+    /// traction across it. Theory (22c), (22d).
     ///
-    /// By polynomials through the most accurate points of the faces about each corner, which do not reach from one
-    /// surface into another; the mean over those of the faces that a node is on, zero at a node that is on none. Faces
-    /// must be free of traction where nodes are asked for.
+    /// Around each corner a polynomial is fitted through the most accurate points of the adjacent faces; it never
+    /// combines points of different surfaces. The stress at a node is the mean over its faces, or zero if it is on
+    /// none. The faces around the nodes must be free of traction.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node (of `nodes` or a face) does not exist.
+    /// [`FemError::Shape`] if `dofs` was made for another number of nodes, or a node (in `nodes` or of a face) does not
+    /// exist.
     pub fn on_surface(
         mesh: &Mesh,
         material: &Material,
@@ -219,12 +220,13 @@ impl StressOperator {
         Ok(Self { rows, free_count: dofs.free_count() })
     }
 
-    /// Number of nodes asked for.
+    /// Number of chosen nodes.
     pub fn node_count(&self) -> usize {
         self.rows.len()
     }
 
-    /// Free nodes (by their place among these, ascending) on whose displacement the stress of any of some maps depends.
+    /// Free nodes whose displacement affects the stress of any of several maps, as positions among the free nodes,
+    /// ascending.
     pub fn moved<'a>(operators: impl Iterator<Item = &'a Self>) -> Vec<usize> {
         let mut moved: Vec<usize> = operators.flat_map(|o| &o.rows).flatten().map(|(position, _)| *position).collect();
         moved.sort_unstable();
@@ -232,7 +234,8 @@ impl StressOperator {
         moved
     }
 
-    /// The same map of the displacement of some free nodes alone, all that it depends on among them (ascending).
+    /// The same map restricted to the displacement of the free nodes `moved` (ascending), which must include all nodes
+    /// that it depends on.
     #[must_use]
     pub fn of(mut self, moved: &[usize]) -> Self {
         for (position, _) in self.rows.iter_mut().flatten() {
@@ -242,10 +245,10 @@ impl StressOperator {
         self
     }
 
-    /// Rows of the nodes in `range` as columns, n x 6 nodes, MPa/mm: (S')_i, what the adjoint way starts from.
+    /// Rows of the nodes in `range`, as columns, n x 6 nodes, MPa/mm: (S')_i, with which the adjoint method starts.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when the range goes past the last node.
+    /// [`FemError::Shape`] if the range exceeds the number of nodes.
     pub fn transposed(&self, range: std::ops::Range<usize>) -> Result<Mat<f64>, FemError> {
         let count = self.rows.len();
         let rows = self.rows.get(range.clone());
@@ -266,7 +269,7 @@ impl StressOperator {
     /// Stress for one or many columns of free displacements (n x k, mm): 6 x nodes rows, k columns, MPa.
     ///
     /// # Errors
-    /// [`FemError::Shape`] when `displacement` does not have one row a free degree of freedom.
+    /// [`FemError::Shape`] if `displacement` does not have one row per free degree of freedom.
     pub fn apply(&self, displacement: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         if displacement.nrows() != self.free_count {
             return Err(FemError::Shape { what: "rows", expected: self.free_count, found: displacement.nrows() });

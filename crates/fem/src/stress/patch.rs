@@ -1,18 +1,18 @@
-//! Patch recovery on a surface: a polynomial through the most accurate points of the faces about a corner.
+//! Patch recovery on a surface: a polynomial through the most accurate points of the faces around a corner.
 //!
-//! Carried to the nodes face by face, stress overshoots at every crest: the line through two Gauss points h/sqrt 3
-//! apart is kappa h^2 / 12 above a crest of curvature kappa at the end of the face, on both sides of it, so that the
-//! mean does not mend it. A polynomial of second order through the points of all faces about a corner has no such
-//! error.
+//! If stress is extrapolated to the nodes face by face, it overshoots at every maximum. The line through two Gauss
+//! points h/sqrt 3 apart is kappa h^2 / 12 above a maximum of curvature kappa at the end of the face. This holds on
+//! both sides of the maximum, so averaging does not remove the error. A polynomial of second order through the points
+//! of all faces around a corner has no such error.
 //!
 //! ```text
 //! sigma(x) = sum_t c_t p_t(alpha, beta),    p = 1, alpha, beta, alpha beta, alpha^2, beta^2 (order 2);  1 (order 1)
 //! min_c sum_q (sigma(x_q) - sigma_q)^2      over the points q of the faces about the corner
 //! sigma_i = sum_c N_c(xi_i) sigma^c(x_i)    at a node of a face, N_c the (bi)linear shape functions of its corners
 //! ```
-//! alpha, beta are measured along the edges of one face about the corner, lengths along the surface; components are in
-//! the frame of the corner, which is turned with the normal. A corner on the rim of the surface has too few points: it
-//! takes the polynomial of the corners beside it.
+//! alpha and beta are measured along the edges of one face at the corner, lengths along the surface. Components are in
+//! the frame of the corner, which rotates with the normal. A corner on the edge of the surface has too few points; it
+//! uses the polynomials of the neighbouring corners.
 //!
 //! Source: Zienkiewicz and Zhu, IJNME 33, 1992, 1331-1364.
 
@@ -93,7 +93,7 @@ fn terms(order: usize, [a, b]: [f64; 2]) -> Vec<f64> {
 }
 
 impl<'a> Patches<'a> {
-    /// Faces whose nodes all exist.
+    /// Patch recovery on `faces`, whose nodes must all exist.
     pub fn new(positions: &'a [[f64; 3]], faces: &'a [Face], material: &Material) -> Self {
         let mut about: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (i, face) in faces.iter().enumerate() {
@@ -103,8 +103,8 @@ impl<'a> Patches<'a> {
         Self { positions, faces, kernels, about, fits: BTreeMap::new() }
     }
 
-    /// Blocks (6 x 3, row-major, MPa/mm) of the stress at node `i` of a face, by node that moves. Empty where the faces
-    /// about it are folded to lines.
+    /// Blocks (6 x 3, row-major, MPa/mm) of the stress at node `i` of a face, one per node on which the stress depends.
+    /// Empty if the faces around it have degenerated to lines.
     pub fn at_node(&mut self, face: usize, i: usize) -> Vec<(u32, [f64; 18])> {
         let Face { kind, .. } = self.faces[face];
         let xi = kind.reference_nodes()[i];

@@ -1,17 +1,17 @@
-//! Stress on a free surface from the displacement of that surface alone.
+//! Stress on a free surface, computed only from the displacement of that surface.
 //!
-//! On a surface without traction the stress is plane in the tangent plane, and the three strains in that plane are
-//! those of the surface's own displacement: no derivative into the body is needed, which is where a coarse mesh is
-//! worst.
+//! On a surface without traction the stress is plane in the tangent plane, and the three strains in that plane follow
+//! from the surface's own displacement. No derivative into the body is needed, which is the least accurate part on a
+//! coarse mesh.
 //!
 //! ```text
 //! grad_s u = sum_j u_j (x) g_j,   g_j = dN_j/dxi a^1 + dN_j/deta a^2        a^1, a^2 dual to the tangents a_1, a_2
 //! eps = sym(P grad_s u P),        P = I - n n'                              3 x 3, in the tangent plane
 //! sigma = 2 mu eps + E nu / (1 - nu^2) tr(eps) P                            plane stress, MPa
 //! ```
-//! Evaluated where the strains of the face are most accurate (quadrilaterals of order 2: 2 x 2 Gauss points, triangles
-//! of order 2: three, faces of order 1: the centre), in frames that follow the face. Patch recovery carries it to the
-//! nodes.
+//! The stress is evaluated where the strains of the face are most accurate (quadrilaterals of order 2: 2 x 2 Gauss
+//! points, triangles of order 2: three, faces of order 1: the centre), in frames that follow the face. Patch recovery
+//! then gives the values at the nodes.
 
 use mesh::FaceKind::{self, Quad4, Quad8, Quad9, Tri3, Tri6};
 

@@ -1,4 +1,4 @@
-//! The balance of forces on the coordinates of a gearbox in motion. Theory (92), (93).
+//! Equilibrium of forces on the coordinates of a moving gearbox. Theory (92), (93).
 
 use dynamics::ModalForce;
 use integrate::{Forces, Mechanism};

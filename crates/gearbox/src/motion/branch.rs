@@ -14,36 +14,36 @@ const WITH_ALL_MODES: usize = 8;
 /// Periodic motions of a gearbox along the speed of its input, 1/min.
 #[derive(Debug)]
 pub struct GearboxBranch {
-    /// Motions and bifurcations by what the meshes see of the displacements.
+    /// Motions and bifurcations in the displacements on which the meshes depend.
     pub branch: Branch<GearboxError>,
-    /// All coordinates of the motions, in their order.
+    /// Series of all coordinates, one per motion, in the order of the motions.
     pub motions: Vec<FourierSeries>,
-    /// All coordinates at the bifurcations.
+    /// Series of all coordinates at the bifurcations.
     pub bifurcations: Vec<FourierSeries>,
     /// Cycles of the fastest mesh in a period.
     pub period_cycles: u64,
     /// Cycles of each mesh in a period.
     pub mesh_cycles: Vec<u64>,
-    /// Coordinates of the gearbox, and those that the meshes see.
+    /// Number of coordinates of the gearbox, and of those on which the meshes depend.
     pub coordinates: [usize; 2],
-    /// Size of the largest multiplier of some of the motions, spread over the branch: as the branch has it, and with the
-    /// modes above twice the highest frequency that shafts must show.
+    /// Magnitude of the largest multiplier of several motions, spread over the branch: as computed for the branch, and
+    /// with the modes above twice the highest frequency that shafts must represent.
     pub with_all_modes: Vec<[f64; 2]>,
 }
 
 impl GearboxMechanism {
-    /// Gives the input another nominal speed, rad/s without its sense.
+    /// Changes the nominal speed of the input, rad/s without its sense.
     pub fn set_speed(&mut self, speed: f64) {
         self.drive = self.drive.at_speed(speed);
     }
 
-    /// The branch of a plan over speeds of the input in 1/min, from the motion that Newton's method finds near the
-    /// equilibrium `rest` ([`GearboxMechanism::start`]). A motion comes back after so many common periods of all meshes; numbers
-    /// of harmonics and phases of the plan are those of a cycle of the fastest mesh.
+    /// The branch of a plan over input speeds in 1/min, starting from the motion that Newton's method finds near the
+    /// equilibrium `rest` ([`GearboxMechanism::start`]). A motion may repeat after several common periods of all
+    /// meshes. The numbers of harmonics and phases in the plan refer to a cycle of the fastest mesh.
     ///
     /// # Errors
-    /// [`GearboxError::NoBranch`], [`GearboxError::LongPeriod`] for gearboxes that have none, [`GearboxError::Branch`] where no
-    /// motion is found.
+    /// [`GearboxError::NoBranch`], [`GearboxError::LongPeriod`] for gearboxes without a branch,
+    /// [`GearboxError::Branch`] if no motion is found.
     pub fn branch(
         &mut self,
         rest: &State,
@@ -89,22 +89,22 @@ impl GearboxMechanism {
         Ok(GearboxBranch { branch, motions, bifurcations, period_cycles, mesh_cycles, coordinates, with_all_modes })
     }
 
-    /// How much of what each mesh holds has been used at most ([`super::MovingMesh::reach`]).
+    /// For each mesh, the largest used share of its valid range ([`super::MovingMesh::reach`]).
     pub fn reach(&self) -> &[f64] {
         &self.reach
     }
 
-    /// State at a share of the period of a motion (0 .. 1), that lasts `period` s.
+    /// State at a fraction of the period of a motion (0 .. 1) whose period is `period` s.
     pub fn state_of(series: &FourierSeries, period: f64, share: f64) -> State {
         let (phase, w) = (TAU * share, TAU / period);
         let a = series.acceleration(phase) * (w * w);
         State { a, ..State::new(share * period, series.at(phase), series.rate(phase) * w) }
     }
 
-    /// Quantities of `count` evenly spaced instants of a motion's period, at the motion's speed.
+    /// Quantities at `count` evenly spaced instants of a motion's period, at the motion's speed.
     ///
     /// # Errors
-    /// Those of the meshes: flanks among them that a mesh does not have.
+    /// The errors of the meshes, including contact on flanks that a mesh model does not have.
     pub fn instants(
         &mut self,
         (speed, period): (f64, f64),

@@ -1,4 +1,5 @@
-//! The contact of a mesh about one displacement, phase by phase: what a spring of few numbers stands for. Theory (94a).
+//! The contact of a mesh about one displacement, phase by phase, which a spring with few parameters replaces. Theory
+//! (94a).
 
 use contact::FlankProjection;
 use lumped::Fourier;
@@ -20,19 +21,19 @@ pub struct ContactSpring {
     coefficients: TiltingCoefficients,
     /// Mean normal force, N.
     pub force: f64,
-    /// Mean length of the contact lines that carry it, mm.
+    /// Mean length of the loaded contact lines, mm.
     pub length: f64,
 }
 
 impl ContactSpring {
-    /// Looks at the contact at `samples` phases of a cycle with the gears displaced by `about`.
+    /// Evaluates the contact at `samples` phases of a cycle with the gears displaced by `about`.
     ///
     /// ```text
     /// F = dV/dx,  M = dV/dgamma,  K their slopes at d = about;   delta_0 = F/K_xx = x + e,   k = K_xx
     /// s k = 2 M/delta_0 - K_xg,   m delta_0 = K_xg - M/delta_0,   n delta_0^2 = K_gg - s^2 k - 4 s m delta_0
     /// ```
     /// # Errors
-    /// [`GearboxError::Unmapped`] where flanks do not touch there at every phase.
+    /// [`GearboxError::Unmapped`] if the flanks do not touch there at every phase.
     pub fn of(mesh: &mut ExactMesh, about: &Vector12, samples: usize) -> Result<Self, GearboxError> {
         let projection = FlankProjection::new(mesh.pair(), mesh.options().side());
         let samples = samples.max(1);
@@ -61,11 +62,11 @@ impl ContactSpring {
         Ok(Self { projection, coefficients, force, length })
     }
 
-    /// The contact about a displacement that is moved along the normal until the mean force (N) is a given one: of teeth at
-    /// their nominal places, about where those with pitch errors are.
+    /// The contact about a displacement that is moved along the normal until the mean force (N) has a given value. For
+    /// teeth with pitch errors this gives the contact of teeth in nominal positions at the same displacement.
     ///
     /// # Errors
-    /// As [`ContactSpring::of`].
+    /// The errors of [`ContactSpring::of`].
     pub fn under(mesh: &mut ExactMesh, about: &Vector12, force: f64, samples: usize) -> Result<Self, GearboxError> {
         let projection = FlankProjection::new(mesh.pair(), mesh.options().side());
         let apart = force / guessed_stiffness(mesh.pair());
@@ -83,7 +84,7 @@ impl ContactSpring {
         }
     }
 
-    /// Stiffness along the normal, N/mm, over the phase, 2 pi a mesh cycle.
+    /// Stiffness along the normal, N/mm, over the phase; 2 pi is one mesh cycle.
     pub fn stiffness(&self) -> &Fourier {
         &self.coefficients.stiffness
     }
@@ -91,7 +92,7 @@ impl ContactSpring {
     /// The spring of a mesh in motion; both flanks of a tooth can touch.
     ///
     /// # Errors
-    /// As [`SpringMesh::new`].
+    /// The errors of [`SpringMesh::new`].
     pub fn mesh(&self, mesh: &GearMesh, meshing: &Meshing) -> Result<TiltingSpring, GearboxError> {
         let c = &self.coefficients;
         let both = SpringMesh::new(mesh, meshing, c.stiffness.clone())?.with_excess(c.excess.clone());

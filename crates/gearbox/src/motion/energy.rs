@@ -1,11 +1,11 @@
-//! Where the energy of a gearbox goes, counted in common axes. Theory (96).
+//! Energy balance of a gearbox, in common axes. Theory (96).
 
 use integrate::{Ledger, State};
 
 use super::GearboxMechanism;
 use crate::GearboxError;
 
-/// Energy of a motion since its start, mJ (N mm).
+/// Energies of a motion since its start, mJ (N mm).
 ///
 /// ```text
 /// d(kinetic + shafts + supports + meshes) = input_work + output_work - dissipated + residual
@@ -14,37 +14,39 @@ use crate::GearboxError;
 pub struct GearboxEnergy {
     /// Work of the input's torque.
     pub input_work: f64,
-    /// Work of the torques of the outputs; below 0 where they load.
+    /// Work of the torques of the outputs; negative if they are loads.
     pub output_work: f64,
-    /// Kinetic energy of all bodies, the nominal turn included.
+    /// Kinetic energy of all bodies, including that of the nominal rotation.
     pub kinetic: f64,
     /// Strain energy of the shafts.
     pub shafts: f64,
     /// Strain energy of bearings and housing.
     pub supports: f64,
-    /// Elastic energy of the meshes, modes of gears among it.
+    /// Elastic energy of the meshes, including that of the gears' modes.
     pub meshes: f64,
-    /// Energy stored since the start, of all four kinds.
+    /// Increase of the stored energy of all four kinds since the start.
     pub gained: f64,
     /// Energy dissipated in bearings, modes and meshes.
     pub dissipated: f64,
-    /// What does not close, over the sum of all work and of the kinetic energy at the start.
+    /// Error of the energy balance, divided by the sum of all work and the kinetic energy at the start.
     pub relative_residual: f64,
-    /// What steps add or take by themselves, over the kinetic and elastic energy that comes and goes in them, of the
-    /// deviations from the turn: the energy of the turn itself is no measure of a vibration.
+    /// Energy that the time steps add or remove numerically, divided by the kinetic and elastic energy exchanged in
+    /// them. Only deviations from the nominal rotation count, because the energy of the rotation is no measure of a
+    /// vibration.
     pub open_over_vibration: f64,
 }
 
 impl GearboxMechanism {
-    /// The energy at `state` of a motion that began at `start`.
+    /// Energies at `state` of a motion that began at `start`.
     ///
     /// ```text
     /// input at given speed: E = E_z + Omega m . v + Omega^2 r' M r/2,   W_in = W_z + [Omega m . v + Omega^2 r' M r/2]_0 - sum T_j theta_j
     /// ```
-    /// E_z, W_z: energy of the deviations, and what the integrator's ledger has for them, the work -Omega' m . v of an
-    /// acceleration in it; m = B' M r. Work of constant torques is that of the turns. That of torques over time is summed
-    /// up step by step where the speed is given and beside a torque over time on the input; under a torque it is what the
-    /// ledger has beside constant ones, and so is that of a torque over time on the input beside those sums.
+    /// E_z and W_z are the energy of the deviations and its value in the integrator's ledger; -Omega' m . v with m = B'
+    /// M r is the work of an acceleration in that ledger. The work of constant torques is that of the rotations. The
+    /// work of torques over time is summed step by step if the input speed is given, and if there is a torque over time
+    /// on the input. If a constant torque drives, it is the ledger's work minus that of constant torques; the work of a
+    /// torque over time on the input is obtained in the same way from the remaining sums.
     ///
     /// # Errors
     /// [`GearboxError`] of a mesh.

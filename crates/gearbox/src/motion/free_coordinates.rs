@@ -1,4 +1,4 @@
-//! Free coordinates of a gearbox in motion, and what they do to its bodies. Theory (92).
+//! Free coordinates of a moving gearbox, and their effect on its bodies. Theory (92).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -115,7 +115,7 @@ impl FreeCoordinates {
         self.basis.ncols()
     }
 
-    /// B with nothing where the turn of the whole train is.
+    /// B with zeros for the rotation of the whole train.
     pub fn of_deviations(&self) -> DMatrix<f64> {
         let mut own = self.basis.clone();
         if let Some(i) = self.turn {
@@ -124,7 +124,7 @@ impl FreeCoordinates {
         own
     }
 
-    /// y of the deviations alone.
+    /// The y of the deviations alone.
     pub fn deviations(&self, z: &DVector<f64>) -> DVector<f64> {
         let mut own = z.clone();
         if let Some(i) = self.turn {
@@ -133,7 +133,7 @@ impl FreeCoordinates {
         &self.basis * own
     }
 
-    /// B' A B; what a turn of the whole train does not touch has exact zeros there.
+    /// B' A B; entries that the rotation of the whole train does not affect are exactly zero.
     pub fn of(&self, matrix: &DMatrix<f64>, turns: bool) -> DMatrix<f64> {
         let mut all = self.basis.transpose() * matrix * &self.basis;
         if let (Some(i), false) = (self.turn, turns) {

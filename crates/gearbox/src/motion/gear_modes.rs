@@ -1,10 +1,11 @@
-//! Elastic modes of gears in motion, as coordinates beside those of shafts. Theory (62), (93b).
+//! Elastic modes of gears in motion, as coordinates in addition to those of shafts. Theory (62), (93b).
 //!
 //! ```text
 //! P = q + L D(theta) x:   T = x.' (M - L'L) x./2 + P.' P./2,   V = V_contact(x, q) + q' Omega^2 q/2,   q = P - L D(theta) x
 //! ```
-//! q: amplitudes in the gear's own frame, which stands at theta; x: displacements of its disc. What the turn of D adds to
-//! velocities, and Coriolis forces on the modes, are W / omega of what is kept and are left out, as of a pair alone.
+//! q are amplitudes in the gear's own frame, which is at angle theta; x are displacements of its disc. The effect of
+//! the rotation of D on velocities, and Coriolis forces on the modes, are smaller by W / omega than the terms that are
+//! kept. They are neglected, as for a single pair.
 
 use std::sync::Arc;
 
@@ -53,11 +54,11 @@ pub(super) struct MovingGears {
 }
 
 impl MovingGears {
-    /// Gears of all meshes that have modes.
+    /// All gears with modes in any mesh.
     ///
     /// # Errors
-    /// [`GearboxError::NoModes`] for a gear that has modes in one of its meshes alone, and one without turning patterns that
-    /// stands otherwise in two of them; [`GearboxError::LessThanModes`].
+    /// [`GearboxError::NoModes`] for a gear that has modes in only one of its meshes, and for a gear without rotating
+    /// patterns that is at different angles in two of them; [`GearboxError::LessThanModes`].
     pub fn new(
         assembly: &Assembly,
         (meshes, train): (&[GearMesh], &Train),
@@ -119,7 +120,7 @@ impl MovingGears {
         Ok(Some(gear.modes.standing().ok_or_else(no_modes)?.turned(by)))
     }
 
-    /// The gears with their places among the coordinates of the bodies and of the motion.
+    /// The gears with their positions among the coordinates of the bodies and of the motion.
     pub fn placed(mut self, assembly: &Assembly, bodies: &ReducedBodies, free: &FreeCoordinates) -> Self {
         let deviations = free.of_deviations();
         for (g, gear) in self.gears.iter().enumerate() {
@@ -131,11 +132,12 @@ impl MovingGears {
         self
     }
 
-    /// What the coordinates z, n of them, become where the same motion goes on with the input turned by an angle (rad) after
-    /// which all gears have turned by whole teeth: amplitudes in the gears' own frames turn, all else is the same.
+    /// Transforms the n coordinates z for the same motion continued with the input rotated by an angle (rad) after
+    /// which all gears have rotated by whole teeth. Amplitudes in the gears' own frames rotate; all other coordinates
+    /// stay the same.
     ///
     /// # Errors
-    /// [`GearboxError::ModesWithoutPeriod`].
+    /// [`GearboxError::ModesWithoutPeriod`] for a gear that is not condensed by sectors.
     pub fn turned(&self, input: f64, n: usize, assembly: &Assembly) -> Result<DMatrix<f64>, GearboxError> {
         let mut all = DMatrix::identity(n, n);
         for (gear, first) in self.gears.iter().zip(&self.first) {
@@ -170,13 +172,13 @@ impl MovingGears {
         gear.modes.coupling_rate_at(gear.angle + gear.ratio * angle) * &self.discs[g] * -gear.ratio
     }
 
-    /// The amplitudes of both gears of a mesh, as it has them, by the coordinates z: (m_1 + m_2) x n; `None` of a mesh without
-    /// modes.
+    /// Map from the coordinates z to the amplitudes of both gears of a mesh, in the form that the mesh uses: (m_1 +
+    /// m_2) x n. `None` for a mesh without modes.
     pub fn map_of(&self, mesh: usize, angle: f64) -> Option<DMatrix<f64>> {
         self.stacked(mesh, |g| self.map(g, angle))
     }
 
-    /// How that follows the angle of the input.
+    /// Derivative of this map by the angle of the input.
     pub fn map_rate_of(&self, mesh: usize, angle: f64) -> Option<DMatrix<f64>> {
         self.stacked(mesh, |g| self.map_rate(g, angle))
     }
@@ -193,8 +195,8 @@ impl MovingGears {
         Some(all)
     }
 
-    /// Adds what modes do by themselves with the input at `angle` (rad), `given` (rad/s) of its speed no coordinate; `turn`:
-    /// number of the coordinate of the input's turn where it is free.
+    /// Adds the forces of the modes alone with the input at `angle` (rad). `given` (rad/s) is the part of its speed
+    /// that is not a coordinate; `turn` is the index of the coordinate of the input's rotation, if that is free.
     pub fn add(&self, [angle, given]: [f64; 2], [z, v]: [&DVector<f64>; 2], turn: Option<usize>, out: &mut Forces) {
         for (g, gear) in self.gears.iter().enumerate() {
             let map = self.map(g, angle);
@@ -216,7 +218,7 @@ impl MovingGears {
         }
     }
 
-    /// Elastic energy of the modes by themselves, N mm.
+    /// Elastic energy of the modes alone, N mm.
     pub fn energy(&self, angle: f64, z: &DVector<f64>) -> f64 {
         let of = |(g, gear): (usize, &MovingGear)| {
             let q = self.map(g, angle) * z;
@@ -225,7 +227,7 @@ impl MovingGears {
         self.gears.iter().enumerate().map(of).sum()
     }
 
-    /// Stiffness of the modes by themselves, n x n.
+    /// Stiffness of the modes alone, n x n.
     pub fn stiffness(&self, angle: f64, n: usize) -> DMatrix<f64> {
         let mut all = DMatrix::zeros(n, n);
         for (g, gear) in self.gears.iter().enumerate() {
@@ -235,7 +237,7 @@ impl MovingGears {
         all
     }
 
-    /// P by the other coordinates z where these move and no gear deforms, in the rows of P, n x n.
+    /// The part of P for which no gear deforms when the other coordinates z move, in the rows of P, n x n.
     pub fn undeformed(&self, angle: f64, n: usize) -> DMatrix<f64> {
         let mut all = DMatrix::zeros(n, n);
         for (g, first) in self.first.iter().enumerate() {
@@ -245,8 +247,8 @@ impl MovingGears {
         all
     }
 
-    /// Forces that a mesh's `on_modes` and the modes' own stiffness and dampers take hold of the discs by, -(L D)' f: number of
-    /// the disc and force, common axes. `on_modes`: forces on the amplitudes, mesh by mesh.
+    /// Forces -(L D)' f of a mesh's `on_modes` and of the modes' own stiffness and dampers on the discs: disc index and
+    /// force, common axes. `on_modes` are forces on the amplitudes, mesh by mesh.
     pub fn on_discs(
         &self,
         angle: f64,
@@ -276,7 +278,8 @@ impl MovingGears {
         self.gears.iter().enumerate().map(of).collect()
     }
 
-    /// Numbers of the coordinates z that are modes, with the size of each for a displacement of `length` (mm) at the flanks.
+    /// Indices of the coordinates z that are modes, each with its magnitude for a displacement of `length` (mm) at the
+    /// flanks.
     pub fn sizes(&self, length: f64) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.gears.iter().zip(&self.first).flat_map(move |(gear, first)| {
             gear.sizes.iter().enumerate().map(move |(j, size)| (first + j, length / size))

@@ -1,4 +1,4 @@
-//! Quantities of an instant of the motion.
+//! Quantities at one instant of the motion.
 
 use dynamics::FlankInstant;
 use integrate::State;
@@ -8,45 +8,45 @@ use serde::{Deserialize, Serialize};
 use super::{Drive, GearboxMechanism, rolling_supports::BesideSprings};
 use crate::{BearingState, GearboxError, Vector12, static_gearbox::at_mesh};
 
-/// A mesh at an instant.
+/// State of a mesh at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshInstant {
-    /// Mesh cycles ([`crate::Train::cycles`]).
+    /// Mesh cycles, see [`crate::Train::cycles`].
     pub cycles: f64,
-    /// Transmission error by the turns of both gears, mm on the transverse line of action
-    /// ([`crate::MeshState::transmission_error`]): the dynamic one.
+    /// Dynamic transmission error: from the rotations of both gears, mm on the transverse line of action
+    /// ([`crate::MeshState::transmission_error`]).
     pub transmission_error: f64,
     /// Rate of the transmission error, mm/s.
     pub transmission_error_rate: f64,
-    /// Sum of the normal forces on the driving flanks, N, damping included.
+    /// Sum of the normal forces on the driving flanks, damping included, N.
     pub normal_force: f64,
-    /// The same of the coast flanks.
+    /// Sum of the normal forces on the coast flanks, damping included, N.
     pub coast_normal_force: f64,
-    /// Largest contact pressure on driving and coast flanks, MPa, without damping; 0 of a mesh that knows no slices.
+    /// Largest contact pressure on driving and coast flanks, MPa, without damping; 0 for a mesh without slices.
     pub max_pressure: f64,
     /// Forces (N) and moments (N mm) on gear 1 and gear 2, friction and damping included, common axes.
     pub wrench: [f64; 12],
 }
 
-/// A gearbox at an instant of its motion.
+/// State of a gearbox at an instant of its motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearboxInstant {
     /// Time, s.
     pub time: f64,
     /// Angle of the input from its start (rad) and its speed (rad/s), about +z.
     pub input: [f64; 2],
-    /// Torque on the input, N mm about +z: the given one, or the one that keeps the given speed.
+    /// Torque on the input, N mm about +z: the given torque, or the one that maintains the given speed.
     pub input_torque: f64,
-    /// Speeds of the discs of the torques, rad/s about +z.
+    /// Speeds of the discs that have torques, rad/s about +z.
     pub output_speeds: Vec<f64>,
     /// Meshes in their order.
     pub meshes: Vec<MeshInstant>,
-    /// Bearings in their order, damping included; their forces are those on the shafts.
+    /// Bearings in order, damping included; their forces are those on the shafts.
     pub bearings: Vec<BearingState>,
 }
 
 impl GearboxMechanism {
-    /// Quantities of the instant at a state.
+    /// Quantities at the instant of a state.
     ///
     /// # Errors
     /// [`GearboxError`] of a mesh.

@@ -1,33 +1,34 @@
-//! A mesh that sees its gears by few levers, and answers along these: so that a step costs as little as its numbers.
+//! A mesh that depends on its gears only through a few levers and acts only along these, so that a time step is cheap.
 
-/// Most levers: an approach and a tilt on either side of the teeth.
+/// Largest number of levers: an approach and a tilt on either side of the teeth.
 pub const LEVERS: usize = 4;
 
-/// What a mesh does along its levers s, in the order in which it tells them; beyond them zeros.
+/// Forces of a mesh along its levers s, in the order of its levers; unused entries are zero.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LeverForces {
-    /// -dV/ds.
+    /// Elastic forces -dV/ds.
     pub elastic: [f64; LEVERS],
-    /// Dampers.
+    /// Forces of the dampers.
     pub damping: [f64; LEVERS],
-    /// d2V/ds2.
+    /// Stiffness d2V/ds2.
     pub stiffness: [[f64; LEVERS]; LEVERS],
-    /// -d damping/d rates.
+    /// -d damping/d rates, the damping coefficients.
     pub rate_slope: [[f64; LEVERS]; LEVERS],
-    /// -d damping/ds of each lever by itself, where dampers are held at the force of the flanks.
+    /// -d damping/ds of each lever alone, where dampers are limited by the force of the flanks.
     pub slope: [f64; LEVERS],
-    /// dV/dc with the levers held, N mm a cycle, where it was asked for.
+    /// dV/dc with the levers held, N mm per cycle, if requested.
     pub energy_rate: f64,
-    /// Power that dampers take, mW.
+    /// Power dissipated by the dampers, mW.
     pub dissipated: f64,
 }
 
-/// A mesh without friction whose gears do no more to it than move its levers.
+/// A mesh without friction that depends on its gears only through its levers.
 pub trait LeverMesh {
-    /// Takes a place in the mesh cycles with the levers moved by `places`: energy, overlaps and reach are of there.
+    /// Moves to a position in the mesh cycles with the levers displaced by `places`; energy, overlaps and reach then
+    /// refer to this position.
     fn stand(&mut self, cycles: f64, places: &[f64; LEVERS]);
 
-    /// Puts the forces there into `out`, with the levers moving at `rates`: all that its levers have to do with. What it
-    /// leaves alone is 0 from the beginning.
+    /// Writes the forces at this position into `out`, with the levers moving at `rates`. Only entries of its own levers
+    /// are written; the others are 0 initially.
     fn answer(&mut self, rates: &[f64; LEVERS], energy_rate: bool, out: &mut LeverForces);
 }

@@ -1,4 +1,4 @@
-//! A mesh at its place between two bodies.
+//! A mesh at its position between two bodies.
 
 use dynamics::{ElasticDisplacement, Extremes, FlankStates, SideLoads};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
@@ -87,7 +87,7 @@ impl LiveMesh {
         all
     }
 
-    /// Has a mesh that answers along its levers stand at a place; whether it is one.
+    /// Moves a mesh with levers to a position; returns false for other meshes.
     #[inline]
     pub fn stand(&mut self, cycles: f64, q: &DVector<f64>) -> bool {
         if self.levers.is_empty() {
@@ -101,7 +101,7 @@ impl LiveMesh {
         true
     }
 
-    /// Levers of a mesh that answers along them, and what it does along these at a place; `None` of others.
+    /// Levers of a mesh with levers, and its forces along them at a position; `None` for other meshes.
     #[inline]
     pub fn answer(
         &mut self,
@@ -120,7 +120,8 @@ impl LiveMesh {
         Some((&self.levers, &self.found))
     }
 
-    /// Forces at a place, with any tangent unless `tangents` asks for it; the same place once more costs nothing.
+    /// Forces at a position. The tangent is accurate only if `tangents` is set. Asking again at the same position costs
+    /// nothing.
     pub fn reply(
         &mut self,
         mesh: &GearMesh,
@@ -145,27 +146,27 @@ impl LiveMesh {
         }
     }
 
-    /// How its energy follows the mesh cycles where it was asked last ([`MovingMesh::energy_change`]); its last answer is
-    /// lost.
+    /// Change of its energy with the mesh cycles at the last position ([`MovingMesh::energy_change`]); its last reply
+    /// is discarded.
     pub fn energy_change(&mut self, mesh: &GearMesh) -> Result<f64, GearboxError> {
         self.last = None;
         self.element.energy_change().map_err(|source| at_mesh(mesh, source))
     }
 
-    /// Energy at a place off the path of the motion; its last answer is lost.
+    /// Energy at a position off the path of the motion; its last reply is discarded.
     pub fn energy_at(&mut self, mesh: &GearMesh, cycles: f64, at: &ElasticDisplacement) -> Result<f64, GearboxError> {
         self.last = None;
         deform(&mut *self.element, &at.q);
         self.element.energy_at(cycles, &at.d).map_err(|source| at_mesh(mesh, source))
     }
 
-    /// Refuses a place that its teeth cannot be followed to.
+    /// Returns an error for a position to which its teeth cannot be followed.
     pub fn check_pace(&self, mesh: &GearMesh, cycles: f64) -> Result<(), GearboxError> {
         self.element.check_pace(cycles).map_err(|source| at_mesh(mesh, source))
     }
 
-    /// The end of a step where it was asked last, with the coordinates moving at `v`: tooth changes are taken, and its forces
-    /// are all there are.
+    /// Ends a step at the last position, with the coordinates moving at `v`: tooth changes are made, and it is checked
+    /// that no other contact would add forces.
     pub fn accept(&mut self, mesh: &GearMesh, v: &DVector<f64>, extremes: &mut Extremes) -> Result<(), GearboxError> {
         let moving = || {
             let rates = &self.to_gears * v;
@@ -177,7 +178,7 @@ impl LiveMesh {
         Ok(())
     }
 
-    /// Where the windows of its teeth stand, if it has some.
+    /// Positions of the windows of its teeth, if it has windows.
     pub fn windows(&self) -> Option<FlankStates> {
         self.element.windows()
     }
@@ -188,23 +189,23 @@ impl LiveMesh {
         self.element.restore_windows(windows)
     }
 
-    /// Its own cycles after which the mesh comes back ([`MovingMesh::period`]).
+    /// Number of its own cycles after which the mesh repeats ([`MovingMesh::period`]).
     pub fn period(&self) -> u64 {
         self.element.period()
     }
 
-    /// Forgets what it remembers of earlier places.
+    /// Discards its memory of earlier positions.
     pub fn forget(&mut self) {
         self.last = None;
         self.element.forget();
     }
 
-    /// Loads on its flanks where it was asked last.
+    /// Loads on its flanks at the last position.
     pub fn loads(&self) -> Vec<SideLoads<'_>> {
         self.element.loads()
     }
 
-    /// The element, standing where it was asked last.
+    /// The element, at its last position.
     pub fn element(&mut self) -> &mut dyn MovingMesh {
         &mut *self.element
     }

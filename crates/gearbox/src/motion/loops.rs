@@ -1,4 +1,4 @@
-//! Sums over so few coordinates that a product of nalgebra, or its iterator, takes longer to call than to do.
+//! Sums over so few coordinates that calling a product or iterator of nalgebra takes longer than the computation.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -15,8 +15,8 @@ use super::{
 };
 use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
 
-/// The flanks of a mesh by tables of their exact contact: forces, moments and energy over phase, approach and tilt in the
-/// plane of action, side by side. Pitch errors are offsets of the pairs of teeth ([`OffsetMap`]).
+/// The flanks of a mesh as tables of their exact contact: forces, moments and energy over phase, approach and tilt in
+/// the plane of action, for each side. Pitch errors are offsets of the pairs of teeth ([`OffsetMap`]).
 #[derive(Debug, Clone)]
 pub struct MappedMesh {
     sides: Vec<MappedSide>,
@@ -118,11 +118,11 @@ impl MappedSide {
 }
 
 impl MappedMesh {
-    /// Maps the contact of flanks about where their gears stand; `watch` hears how far a map is.
+    /// Maps the contact of flanks near the positions of their gears; `watch` receives the progress of a map.
     ///
     /// # Errors
-    /// [`GearboxError::Unmapped`] for teeth that are not alike, [`GearboxError::Map`] where no map is
-    /// good enough.
+    /// [`GearboxError::Unmapped`] for teeth that differ from each other, [`GearboxError::Map`] if no map is accurate
+    /// enough.
     pub fn new(
         flanks: &MeshFlanks,
         pair: &GearPair,
@@ -132,11 +132,11 @@ impl MappedMesh {
         Self::on(flanks, pair, request, flanks.maps(pair, request, watch)?)
     }
 
-    /// The mesh on maps that [`MappedMesh::new`] made of the same flanks and request.
+    /// The mesh on maps that [`MappedMesh::new`] made for the same flanks and request.
     ///
     /// # Errors
-    /// [`GearboxError::Unmapped`] as [`MappedMesh::new`], and for maps of other flanks: with tilts where none are asked for,
-    /// or without.
+    /// [`GearboxError::Unmapped`] as for [`MappedMesh::new`], and for maps of other flanks: with tilts that were not
+    /// requested, or without tilts that were.
     pub fn on(
         flanks: &MeshFlanks,
         pair: &GearPair,
@@ -169,35 +169,36 @@ impl MappedMesh {
         Ok(Self { sides, damping_per_length: 0.0, room, per_cycle: flanks.turns_per_cycle(pair), cycles: 0.0 })
     }
 
-    /// Mesh with dampers on the contact lines, N s/mm a mm, each limited to the force there.
+    /// Mesh with dampers on the contact lines, N s/mm per mm, each limited by the force at its position.
     #[must_use]
     pub fn with_damping(self, per_length: f64) -> Self {
         Self { damping_per_length: per_length, ..self }
     }
 
-    /// Mesh whose driving flanks may part as far as they like: there are no others.
+    /// Mesh that has only driving flanks, which may separate by any distance.
     #[must_use]
     pub fn with_driving_flanks_alone(self) -> Self {
         Self { room: None, ..self }
     }
 
-    /// The maps of teeth at their nominal places: of the driving flanks, and of the coast flanks where it has them.
+    /// The maps of teeth in nominal positions: those of the driving flanks and, if present, of the coast flanks.
     pub fn maps(&self) -> impl Iterator<Item = &ContactMap> {
         self.sides.iter().map(|side| side.map.map())
     }
 
-    /// Largest error of its maps: root mean square of the approach over the mean approach ([`MapRequest::tolerance`]).
+    /// Largest error of its maps: root mean square error of the approach divided by the mean approach
+    /// ([`MapRequest::tolerance`]).
     pub fn error(&self) -> f64 {
         self.maps()
             .map(|map| map.certificate().error())
             .fold(0.0, |worst: f64, e| if e > worst || e.is_nan() { e } else { worst })
     }
 
-    /// Error of the approach of the driving flanks by pitch errors as offsets, beside the contact of the same flanks with
-    /// these errors; `None` without any.
+    /// Error of the driving flanks' approach if pitch errors are treated as offsets, compared with the contact of the
+    /// same flanks with these errors; `None` without pitch errors.
     ///
     /// # Errors
-    /// [`GearboxError::Map`] where the contact cannot be solved.
+    /// [`GearboxError::Map`] if the contact cannot be solved.
     pub fn pitch_error(
         &self,
         flanks: &MeshFlanks,

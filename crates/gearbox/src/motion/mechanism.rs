@@ -17,7 +17,7 @@ use crate::{
     static_gearbox::{at_mesh, check, guessed_force},
 };
 
-/// Shafts, bearings and meshes that move: any number of each, every mesh at its own phase.
+/// Moving shafts, bearings and meshes: any number of each, every mesh at its own phase.
 ///
 /// ```text
 /// M z'' = -dV/dz - (C + psi' G) z' - m psi'' + loads + dampers of the meshes,   V = z' K z/2 + sum of V_mesh(c_i(psi), D_i z)
@@ -70,11 +70,11 @@ pub struct GearboxMechanism {
 }
 
 impl GearboxMechanism {
-    /// Mechanism with one element a mesh, in their order; `elements` makes them from how the mesh runs. Modal damping
-    /// comes with the start of the motion ([`GearboxMechanism::start`]).
+    /// Mechanism with one element per mesh, in order; `elements` makes them from the running of the mesh. Modal damping
+    /// is set at the start of the motion ([`GearboxMechanism::start`]).
     ///
     /// # Errors
-    /// [`GearboxError`]: where parts do not fit, a torque drives, or a bearing holds the turn about the axis.
+    /// [`GearboxError`] if parts do not fit together, a torque drives, or a bearing prevents the rotation of its shaft.
     pub fn new(
         structure: Structure,
         meshes: Vec<GearMesh>,
@@ -170,12 +170,13 @@ impl GearboxMechanism {
         })
     }
 
-    /// The mechanism, with rolling bearings that follow their laws from now on. It was made with springs in their place
-    /// ([`Structure::about`] of `structure`): what laws do beside these acts at every instant, with its tangent. Damping of
-    /// bearings in a housing keeps the share that seats take of a velocity by the springs.
+    /// The mechanism with rolling bearings that follow their laws. It must have been made with springs instead of them
+    /// ([`Structure::about`] of `structure`). The differences between laws and springs then act at every instant, with
+    /// their tangent. Damping of bearings in a housing still uses the share of a velocity that the seats take according
+    /// to the springs.
     ///
     /// # Errors
-    /// [`GearboxError::Count`] where `structure` has another number of bearings.
+    /// [`GearboxError::Count`] if `structure` has another number of bearings.
     pub fn with_rolling_bearings(mut self, structure: &Structure) -> Result<Self, GearboxError> {
         let (found, wanted) = (structure.bearings.len(), self.assembly.structure().bearings.len());
         if found != wanted {
@@ -193,13 +194,14 @@ impl GearboxMechanism {
         Ok(self)
     }
 
-    /// The mechanism, with torques over time in place of constant ones: number among the torques of the operation, and
-    /// torque in N mm about +z. The motion starts in equilibrium under what they are then. A balanced drive answers them
-    /// at every instant; a torque on the input that was to balance the loads balances those of the operation.
+    /// The mechanism with torques over time instead of constant ones: each entry is an index among the torques of the
+    /// operation, and a torque in N mm about +z. The motion starts in equilibrium under their initial values. A
+    /// balanced drive follows them at every instant; a constant torque on the input balances the torques of the
+    /// operation.
     ///
     /// # Errors
-    /// [`GearboxError::Count`] for a torque that the operation does not have, [`GearboxError::OutOfRange`] where one is no
-    /// number.
+    /// [`GearboxError::Count`] for an index that the operation does not have, [`GearboxError::OutOfRange`] if a torque
+    /// is not a finite number.
     pub fn with_torques(mut self, laws: Vec<(usize, Torque)>) -> Result<Self, GearboxError> {
         let wanted = self.operation.torques.len();
         let mut all = Vec::new();
@@ -230,11 +232,12 @@ impl GearboxMechanism {
         Ok(self)
     }
 
-    /// The mechanism, with a torque over time (N mm about +z) in place of the constant one on an input that a torque drives.
+    /// The mechanism with a torque over time (N mm about +z) instead of the constant one, on an input driven by a
+    /// torque.
     ///
     /// # Errors
-    /// [`GearboxError::GivenSpeed`] where the speed of the input is given, [`GearboxError::OutOfRange`] for a torque that is
-    /// no number.
+    /// [`GearboxError::GivenSpeed`] if the speed of the input is given, [`GearboxError::OutOfRange`] for a torque that
+    /// is not a finite number.
     pub fn with_input_torque(mut self, law: Torque) -> Result<Self, GearboxError> {
         if self.free.turn.is_none() {
             return Err(GearboxError::GivenSpeed);
@@ -262,7 +265,7 @@ impl GearboxMechanism {
         self
     }
 
-    /// Matrices and parts.
+    /// Matrices and parts of the structure.
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
     }
@@ -277,7 +280,8 @@ impl GearboxMechanism {
         &self.bodies
     }
 
-    /// Inertia of all that turns with the input but its own shaft, t mm^2 at the input: what the meshes accelerate.
+    /// Inertia of all parts that rotate with the input, except its own shaft, t mm^2 referred to the input: the inertia
+    /// that the meshes accelerate.
     ///
     /// ```text
     /// J = sum over shafts i but the input's of J_i ratio_i^2
@@ -304,17 +308,18 @@ impl GearboxMechanism {
         self.operation.sense.sign() as f64 * self.drive.nominal().at(0.0)
     }
 
-    /// Frequency of each mesh at the speed of the start, Hz.
+    /// Frequency of each mesh at the initial speed, Hz.
     pub fn mesh_frequencies(&self) -> Vec<f64> {
         self.live.iter().map(|m| (m.cycles_per_turn * self.input_speed()).abs()).collect()
     }
 
-    /// Extremes of the flanks of a mesh since the start; of a mesh that does not tell them as they were there.
+    /// Extremes of the flanks of a mesh since the start; for a mesh that does not record them, those given at the
+    /// start.
     pub fn extremes(&self, mesh: usize) -> &Extremes {
         &self.extremes[mesh]
     }
 
-    /// Work that the torques of the outputs took in the nominal motion, over all cycles, N mm: what goes through the gearbox.
+    /// Work of the output torques in the nominal motion, over all cycles, N mm: the energy transmitted by the gearbox.
     pub fn throughput(&self) -> f64 {
         self.throughput
     }
@@ -336,8 +341,8 @@ impl GearboxMechanism {
         self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max)
     }
 
-    /// Time (s, >= 0) at which the fastest mesh has gone on by so many cycles in the nominal motion; `None` where it stops
-    /// before.
+    /// Time (s, >= 0) at which the fastest mesh has advanced by `cycles` cycles in the nominal motion; `None` if the
+    /// motion stops before.
     pub fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
         self.drive.nominal().time_at(cycles / self.fastest())
     }
@@ -422,7 +427,7 @@ impl GearboxMechanism {
         ElasticDisplacement { d: self.displacements(mesh, z), q }
     }
 
-    /// Displacements of both gears of a mesh, or their rates, in its own axes.
+    /// Displacements of both gears of a mesh, or their rates, in the mesh's own axes.
     pub fn displacements(&self, mesh: usize, q: &DVector<f64>) -> Vector12 {
         let d = &self.live[mesh].to_gears * q;
         Vector12::from_fn(|i, _| d[i])

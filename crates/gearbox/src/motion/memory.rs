@@ -1,4 +1,4 @@
-//! State of a gearbox in motion beside coordinates and velocities.
+//! State of a moving gearbox in addition to coordinates and velocities.
 
 use dynamics::{Extremes, FlankStates};
 use integrate::Resumable;
@@ -7,30 +7,30 @@ use serde::{Deserialize, Serialize};
 use super::{GearboxMechanism, TorqueMemory, live_mesh::LiveMesh};
 use crate::{GearboxError, static_gearbox::at_mesh};
 
-/// What a mesh in motion is beside its displacements.
+/// State of a moving mesh in addition to its displacements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshMemory {
-    /// How much of what it holds the motion has used at most ([`super::MovingMesh::reach`]).
+    /// Largest used share of its valid range ([`super::MovingMesh::reach`]).
     pub reach: f64,
     /// Extremes of its flanks.
     pub extremes: Extremes,
-    /// Windows of teeth and tooth changes, of a mesh that has some.
+    /// Windows of teeth and tooth changes, for a mesh with windows.
     pub windows: Option<FlankStates>,
 }
 
-/// What a gearbox in motion is beside its coordinates and velocities.
+/// State of a moving gearbox in addition to its coordinates and velocities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearboxMemory {
     /// Meshes in their order.
     pub meshes: Vec<MeshMemory>,
-    /// Torques that change with time.
+    /// State of the torques that change with time.
     pub torques: TorqueMemory,
-    /// Work that has gone through in the nominal motion, N mm ([`GearboxMechanism::throughput`]).
+    /// Work transmitted in the nominal motion, N mm ([`GearboxMechanism::throughput`]).
     pub throughput: f64,
 }
 
 impl GearboxMemory {
-    /// Running number of the window of a mesh that is farthest from the start of counting.
+    /// Largest magnitude of the running numbers of a mesh's window.
     pub fn farthest_tooth(&self) -> u64 {
         let of_meshes = self.meshes.iter().filter_map(|own| own.windows.as_ref());
         of_meshes.map(FlankStates::farthest_tooth).fold(0, u64::max)

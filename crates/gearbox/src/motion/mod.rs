@@ -1,4 +1,4 @@
-//! How shafts, bearings and gears move in time: any number of meshes, each at its own phase.
+//! Motion of shafts, bearings and gears in time: any number of meshes, each at its own phase.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! The exact contact itself as a mesh in motion: every step solves it anew. Theory (46), (47), (93).
+//! The exact contact as a mesh in motion: it is solved again at every step. Theory (46), (47), (93).
 
 use std::sync::Arc;
 
@@ -19,11 +19,11 @@ use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finit
 /// Mesh cycles either way over which the change of the energy is taken, as of a pair alone.
 const EITHER_WAY: f64 = 1e-4;
 
-/// Flanks of a mesh in motion, with the laws of a single pair ([`MeshFlanks`]): friction, a damper on each loaded slice,
-/// and the coast flanks if they can touch.
+/// Flanks of a mesh in motion with the laws of a single pair ([`MeshFlanks`]): friction, a damper on each loaded slice,
+/// and contact on the coast flanks if they can touch.
 ///
-/// Pitch errors and all else that the pair has are in it. Turns of the nominal motion are turns of the gears: the energy
-/// follows the mesh cycles by the moments about their axes.
+/// It includes pitch errors and all other properties of the pair. Rotations of the nominal motion are rotations of the
+/// gears, so the derivative of the energy by the mesh cycles follows from the moments about their axes.
 #[derive(Debug)]
 pub struct MovingExactMesh {
     pair: GearPair,
@@ -54,12 +54,12 @@ struct Answer {
 }
 
 impl MovingExactMesh {
-    /// Gears reduced for the driving flanks of `options`, and for their coast flanks where these may touch. Driver and sense
-    /// of the options are those of [`crate::Train::meshing`]; the torque is not used. `damping_per_length`: N s/mm a mm of
-    /// contact line, on each slice held at its own force.
+    /// Takes gears reduced for the driving flanks of `options`, and for their coast flanks if these may touch. Driver
+    /// and sense of the options are those of [`crate::Train::meshing`]; the torque is not used. `damping_per_length` is
+    /// in N s/mm per mm of contact line; on each slice it is limited by the slice's force.
     ///
     /// # Errors
-    /// [`GearboxError::Contact`]: points, or gears that are not reduced for these flanks.
+    /// [`GearboxError::Contact`] for contact of points, or for gears that are not reduced for these flanks.
     pub fn new(
         pair: GearPair,
         driving: Arc<[ElasticGear; 2]>,
@@ -77,7 +77,7 @@ impl MovingExactMesh {
         Ok(Self { pair, flanks, damping_per_length, per_cycle, room, cycles: 0.0, modes, amplitudes, roots, at: None })
     }
 
-    /// The mesh at its beginning, with the same gears and tables, and another damper.
+    /// The mesh in its initial state, with the same gears and tables and another damper.
     ///
     /// # Errors
     /// [`GearboxError::Contact`].
@@ -96,13 +96,13 @@ impl MovingExactMesh {
         })
     }
 
-    /// Mesh whose driving flanks may part as far as they like: there are no others.
+    /// Mesh that has only driving flanks, which may separate by any distance.
     #[must_use]
     pub fn with_driving_flanks_alone(self) -> Self {
         Self { room: None, ..self }
     }
 
-    /// The flanks.
+    /// The flanks of the mesh.
     pub fn flanks(&self) -> &MeshFlanks {
         &self.flanks
     }
@@ -112,11 +112,11 @@ impl MovingExactMesh {
         self.modes.as_ref()
     }
 
-    /// The mesh with elastic modes of gear 1 and gear 2 as coordinates: their share of the compliance gets inertia, the rest
-    /// stays quasi-static.
+    /// The mesh with elastic modes of gear 1 and gear 2 as coordinates: their share of the compliance gets inertia, the
+    /// rest stays quasi-static.
     ///
     /// # Errors
-    /// [`GearboxError::Contact`] for modes of other gears, [`GearboxError::OutOfRange`] for a damping ratio that is none.
+    /// [`GearboxError::Contact`] for modes of other gears, [`GearboxError::OutOfRange`] for an invalid damping ratio.
     pub fn with_modes(mut self, modes: [GearVibration; 2]) -> Result<Self, GearboxError> {
         if let Some(value) = modes.iter().map(|own| own.damping_ratio).find(|zeta| !zeta.is_finite() || *zeta < 0.0) {
             return Err(GearboxError::OutOfRange { part: "gears".into(), quantity: "modal damping ratio", value });

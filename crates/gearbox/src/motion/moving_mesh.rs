@@ -1,4 +1,5 @@
-//! What a motion asks of a mesh beside its forces at rest: energy, losses, free flight, tooth changes. Theory (93).
+//! Interface of a mesh in motion, in addition to its static forces: energy, losses, separated flanks, tooth changes.
+//! Theory (93).
 
 use dynamics::{Extremes, FlankInstant, FlankStates, GearVibration, ModalForce, SideLoads};
 use nalgebra::{DVector, SMatrix};
@@ -6,106 +7,109 @@ use nalgebra::{DVector, SMatrix};
 use super::lever_mesh::LeverMesh;
 use crate::{GearboxError, MeshElement, MeshForces, Vector12};
 
-/// A mesh whose gears move. All questions are about the place of the last [`MeshElement::go_to`] and the displacements
-/// of the last [`MeshElement::evaluate`]; forces without friction are the exact derivative of the energy.
+/// A mesh whose gears move. All methods refer to the position of the last [`MeshElement::go_to`] and the displacements
+/// of the last [`MeshElement::evaluate`]. Forces without friction are the exact derivative of the energy.
 pub trait MovingMesh: MeshElement + Send {
-    /// Told once, before all else, where in the mesh cycles the motion begins: for a mesh whose teeth change on the way.
+    /// Called once, before all other methods, with the position in the mesh cycles at which the motion begins; for a
+    /// mesh whose teeth change during the motion.
     ///
     /// # Errors
-    /// [`GearboxError`] for a place that cannot be.
+    /// [`GearboxError`] for an impossible position.
     fn begin_at(&mut self, _cycles: f64) -> Result<(), GearboxError> {
         Ok(())
     }
 
-    /// Elastic modes of both gears that this mesh has as coordinates; none of gears that are rigid beside their teeth.
+    /// Elastic modes of both gears that are coordinates of this mesh; `None` for gears that are rigid apart from their
+    /// teeth.
     fn modes(&self) -> Option<[GearVibration; 2]> {
         None
     }
 
-    /// Largest normal displacement of a flank by one unit of each mode, t^(-1/2).
+    /// Largest normal displacement of a flank per unit of each mode, t^(-1/2).
     fn mode_sizes(&self) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Angles (rad, the mesh's own axes) of the frames in which amplitudes count, at a place in the mesh cycles, of a mesh
-    /// that has modes.
+    /// Angles (rad, in the mesh's own axes) of the frames of the amplitudes at a position in the mesh cycles, for a
+    /// mesh with modes.
     fn gear_angles(&self, _cycles: f64) -> [f64; 2] {
         [0.0; 2]
     }
 
-    /// Deforms both gears by amplitudes of these modes, mm t^(1/2), from now on.
+    /// Sets the amplitudes of these modes, by which both gears are deformed, mm t^(1/2).
     fn deform(&mut self, _amplitudes: &DVector<f64>) {}
 
-    /// What the flanks do to these modes where they were evaluated last, with the tangents of all coordinates.
+    /// Forces of the flanks on these modes at the last evaluation, with the tangents of all coordinates.
     fn on_modes(&self) -> Option<&ModalForce> {
         None
     }
 
-    /// [`MeshElement::evaluate`] with any tangent: forces alone are wanted.
+    /// As [`MeshElement::evaluate`], but the tangent need not be accurate: only the forces are needed.
     ///
     /// # Errors
-    /// As of [`MeshElement::evaluate`].
+    /// The errors of [`MeshElement::evaluate`].
     fn evaluate_forces(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         self.evaluate(displacements)
     }
 
-    /// Elastic energy V, N mm; 0 in free flight.
+    /// Elastic energy V, N mm; 0 if the flanks are separated.
     fn energy(&self) -> f64;
 
-    /// The same at another place, to twelve digits; where the mesh stands afterwards is open.
+    /// Elastic energy at another position, accurate to twelve digits; the position of the mesh is undefined afterwards.
     ///
     /// # Errors
-    /// As of [`MeshElement::evaluate`].
+    /// The errors of [`MeshElement::evaluate`].
     fn energy_at(&mut self, cycles: f64, displacements: &Vector12) -> Result<f64, GearboxError> {
         self.go_to(cycles)?;
         self.evaluate_forces(displacements)?;
         Ok(self.energy())
     }
 
-    /// dV/dc: how it follows the mesh cycles with displacements held, N mm a cycle.
+    /// dV/dc: change of the energy with the mesh cycles at constant displacements, N mm per cycle.
     fn energy_rate(&self) -> f64;
 
-    /// The same, with what the stiffness changes by on the way, which is in no force of the flanks: what the energy
-    /// follows to the second order of the deflections. Where the mesh stands afterwards is open.
+    /// The same, including the change of stiffness with the cycles, which does not appear in the forces of the flanks.
+    /// This is the change of energy to second order in the deflections. The position of the mesh is undefined
+    /// afterwards.
     ///
     /// # Errors
-    /// As of [`MeshElement::evaluate`].
+    /// The errors of [`MeshElement::evaluate`].
     fn energy_change(&mut self) -> Result<f64, GearboxError> {
         Ok(self.energy_rate())
     }
 
-    /// Friction and dampers of the flanks that touch, with the gears moving at `rates` beside their nominal motion (mm/s,
-    /// rad/s) and the mesh going on by `cycles` a second.
+    /// Friction and damper forces of the flanks in contact. The gears move at `rates` relative to their nominal motion
+    /// (mm/s, rad/s), and the mesh advances by `cycles` per second.
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses;
 
-    /// How far the undeformed flanks overlap on the side that drives and on the other one, mm along the normal;
-    /// negative where they are apart, and minus infinity for a side that this mesh does not have.
+    /// Overlap of the undeformed flanks on the driving side and on the other one, mm along the normal. It is negative
+    /// if they are apart, and minus infinity for a side that this mesh does not have.
     ///
     /// # Errors
-    /// [`GearboxError`] when it is not known.
+    /// [`GearboxError`] if it is not known.
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError>;
 
-    /// Refuses a place in the mesh cycles to which its teeth cannot be followed from where it stands.
+    /// Returns an error for a position in the mesh cycles to which its teeth cannot be followed from the current one.
     ///
     /// # Errors
-    /// [`GearboxError`] for gears that have turned past all teeth that it knows.
+    /// [`GearboxError`] if the gears have rotated past all teeth of the windows.
     fn check_pace(&self, _cycles: f64) -> Result<(), GearboxError> {
         Ok(())
     }
 
-    /// Asked at the end of a step, after [`MeshElement::evaluate`], with the gears moving at `rates`: takes the tooth changes
-    /// that are due, which leave the forces as they are, and tells whether there was one; the mesh then stands nowhere. Adds
-    /// the step to the extremes of the flanks, those of slices where it has some.
+    /// Called at the end of a step, after [`MeshElement::evaluate`], with the gears moving at `rates`. It makes the
+    /// tooth changes that are due, which do not change the forces, and returns whether there was one; the mesh then has
+    /// no position. It adds the step to the extremes of the flanks, and to those of the slices if there are any.
     ///
     /// # Errors
-    /// [`GearboxError`] when the forces are not all there are.
+    /// [`GearboxError`] if other contact would add forces.
     fn accept(&mut self, _rates: &dyn Fn() -> Vector12, extremes: &mut Extremes) -> Result<bool, GearboxError> {
         self.check()?;
         extremes.see(self.overlaps()?);
         Ok(false)
     }
 
-    /// Where the windows of teeth stand that it has; none for a mesh that is a function of its place.
+    /// Positions of its windows of teeth; `None` for a mesh that is a function of its position alone.
     fn windows(&self) -> Option<FlankStates> {
         None
     }
@@ -113,67 +117,68 @@ pub trait MovingMesh: MeshElement + Send {
     /// Restores the windows.
     ///
     /// # Errors
-    /// [`GearboxError`] for windows that cannot be.
+    /// [`GearboxError`] for impossible windows.
     fn restore_windows(&mut self, _windows: &FlankStates) -> Result<(), GearboxError> {
         Ok(())
     }
 
-    /// Forgets what it remembers of earlier places, so that answers depend on the place alone to the last bit. Nothing to
-    /// do for a mesh that is a pure function of it.
+    /// Discards its memory of earlier positions, so that results depend only on the position, to the last bit. Does
+    /// nothing for a mesh that is a pure function of its position.
     fn forget(&mut self) {}
 
-    /// The combinations of displacements that all forces of this mesh depend on and act along, as rows of 12 each;
-    /// `None` for a mesh that depends on more than it can name.
+    /// The combinations of displacements on which all forces of this mesh depend and along which they act, as rows of
+    /// 12 each; `None` for a mesh that depends on more.
     fn levers(&self) -> Option<Vec<Vector12>> {
         None
     }
 
-    /// The mesh by these levers, of one that answers along them.
+    /// Access to this mesh by its levers, if it has levers.
     fn by_levers(&mut self) -> Option<&mut dyn LeverMesh> {
         None
     }
 
-    /// What the driving and the coast flanks do where they were evaluated last, with the gears moving as for
+    /// Loads of the driving and the coast flanks at the last evaluation, with the gears moving as for
     /// [`MovingMesh::losses`].
     ///
     /// # Errors
-    /// [`GearboxError`] where stress of the fillets is asked for and not found.
+    /// [`GearboxError`] if stress of the fillets is requested and cannot be computed.
     fn by_side(&mut self, rates: &Vector12, cycles: f64) -> Result<[FlankInstant; 2], GearboxError>;
 
-    /// Loads on the flanks that press where they were evaluated last: the driving ones, and coast ones where these do; none
-    /// of a mesh without gears that deform.
+    /// Loads on the flanks in contact at the last evaluation: the driving ones, and the coast ones if they are in
+    /// contact; empty for a mesh without deformable gears.
     fn loads(&self) -> Vec<SideLoads<'_>> {
         Vec::new()
     }
 
-    /// Mesh cycles after which this mesh comes back: 1 where the teeth of both gears are alike.
+    /// Number of mesh cycles after which this mesh repeats: 1 if the teeth of both gears are equal.
     fn period(&self) -> u64 {
         1
     }
 
-    /// How much of what this mesh holds the last evaluation has used: above 1 it holds no more. 0 for a mesh without
-    /// such bounds.
+    /// Share of this mesh's valid range used in the last evaluation; above 1 the position is outside the range. 0 for a
+    /// mesh without such limits.
     fn reach(&self) -> f64 {
         0.0
     }
 }
 
-/// What friction and dampers of a mesh do.
+/// Friction and damping of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshLosses {
-    /// Friction: forces (N) and moments (N mm) on gear 1 and gear 2, in the mesh's own axes. It is among the forces of the
-    /// mesh ([`MeshForces::force`]) as what has no potential.
+    /// Friction: forces (N) and moments (N mm) on gear 1 and gear 2, in the mesh's own axes. It is included in the
+    /// forces of the mesh ([`MeshForces::force`]) as the part without a potential.
     pub friction: Vector12,
-    /// Dampers, likewise.
+    /// Dampers, in the same form.
     pub force: Vector12,
-    /// Both on the mesh cycles, N mm a cycle: what the sliding of the turn and teeth of uneven thickness are held back by.
+    /// Work of both per mesh cycle, N mm per cycle: their resistance to the sliding of the nominal rotation and to
+    /// unevenly placed teeth.
     pub along_cycles: f64,
     /// -d force/d rates: N s/mm, N s, N mm s.
     pub rate_slope: SMatrix<f64, 12, 12>,
-    /// -d force/d displacements, where dampers are held at the force of the flanks.
+    /// -d force/d displacements, where dampers are limited by the force of the flanks.
     pub slope: SMatrix<f64, 12, 12>,
-    /// Power that both take, mW (N mm/s): f . (rates + nominal turn). Friction is against the sliding of the nominal turn:
-    /// where deviations slide the other way for a moment, its part is below 0.
+    /// Power dissipated by both, mW (N mm/s): f . (rates + nominal rotation). Friction acts against the sliding of the
+    /// nominal rotation. If deviations temporarily slide in the opposite direction, its part is negative.
     pub dissipated: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A damper along the normal of flanks that press.
+//! A damper along the normal of flanks in contact.
 
 use dynamics::FlankInstant;
 
@@ -30,13 +30,13 @@ impl NormalDamper<'_> {
         self.lever.dot(rates) + self.by_cycles * cycles
     }
 
-    /// Flanks that press with its force, with what it adds to it.
+    /// State of the flanks in contact under its force, including the force of the damper.
     pub fn instant(&self, rates: &Vector12, cycles: f64) -> FlankInstant {
         let damping = (self.damping * self.rate(rates, cycles)).clamp(-self.force, self.force);
         FlankInstant { force: self.force, damping, ..FlankInstant::default() }
     }
 
-    /// Adds what it does at `rates` of the displacements and so many mesh cycles a second.
+    /// Adds its force at `rates` of the displacements and `cycles` mesh cycles per second.
     pub fn add(&self, rates: &Vector12, cycles: f64, all: &mut MeshLosses) {
         let rate = self.rate(rates, cycles);
         let asked = self.damping * rate;

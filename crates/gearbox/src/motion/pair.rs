@@ -1,5 +1,5 @@
-//! A pair alone as a machine: two rigid gears, each with its bearing and the axes in which it is free, and one mesh.
-//! Theory (45), (92).
+//! A single pair as a mechanism: two rigid gears, each with its bearing and its free axes, and one mesh. Theory (45),
+//! (92).
 
 use dynamics::{COORDINATES, MotionOptions as PairOptions, SideLoads, ToothChanges};
 use geometry::{Driver, GearPair};
@@ -14,22 +14,22 @@ use crate::{
 /// Name of the mesh of a pair, whose errors need no name.
 const PAIR: &str = "";
 
-/// A pair at an instant of its motion.
+/// State of a pair at an instant of its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairInstant {
     /// Time, s.
     pub time: f64,
     /// The mesh.
     pub mesh: MeshInstant,
-    /// Displacements of both gears from their nominal motion, mm and rad; the mesh's own axes.
+    /// Displacements of both gears from their nominal motion, mm and rad, in the mesh's own axes.
     pub displacements: Vector12,
-    /// Their rates.
+    /// Rates of the displacements, mm/s and rad/s.
     pub rates: Vector12,
     /// Speeds of both gears, rad/s about +z.
     pub speeds: [f64; 2],
-    /// Driving and coast flanks.
+    /// State of the driving and the coast flanks.
     pub flanks: [FlankInstant; 2],
-    /// Torque of the driver in the running sense, N mm: the given one, or the one that keeps the given speed.
+    /// Torque of the driver in the running sense, N mm: the given torque, or the one that maintains the given speed.
     pub drive_torque: f64,
     /// Torque on the driven gear against its motion, N mm.
     pub load_torque: f64,
@@ -45,13 +45,13 @@ impl PairInstant {
 }
 
 impl GearboxMechanism {
-    /// The mechanism of a pair: gear 1 turns about the common z axis, gear 2 beside it along +x. The coordinate of the driven
-    /// gear's turn is its lag on the base circle, mm: the transmission error itself, so that it keeps its digits however far
-    /// the driver has turned. The turn of a driver that a torque drives is a coordinate beside its nominal one, the last of
-    /// all.
+    /// The mechanism of a pair: gear 1 rotates about the common z axis, gear 2 is beside it along +x. The coordinate of
+    /// the driven gear's rotation is its lag on the base circle, mm. This is the transmission error itself, so it keeps
+    /// its digits however far the driver has rotated. If a torque drives, the rotation of the driver is a coordinate
+    /// relative to its nominal rotation, the last of all.
     ///
     /// # Errors
-    /// As [`GearboxMechanism::new`].
+    /// The errors of [`GearboxMechanism::new`].
     pub fn of_pair(
         pair: &GearPair,
         options: &PairOptions,
@@ -120,7 +120,7 @@ impl GearboxMechanism {
         }
     }
 
-    /// Gives the driven gear of a pair another load, N mm against its turn.
+    /// Sets another load on the driven gear of a pair, N mm against its rotation.
     pub fn set_pair_load(&mut self, load: &dynamics::Torque) {
         let against = self.against_turn();
         self.set_torque(0, load.clone().scaled(against));
@@ -133,7 +133,7 @@ impl GearboxMechanism {
         -(self.operation.sense.sign() as f64) * ratio.signum()
     }
 
-    /// How the transmission error of a mesh follows the coordinates, mm/mm and mm/rad.
+    /// Derivatives of the transmission error of a mesh by the coordinates, mm/mm and mm/rad.
     pub fn error_slopes(&self, mesh: usize) -> DVector<f64> {
         let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
         let mut lever = Vector12::zeros();
@@ -143,12 +143,12 @@ impl GearboxMechanism {
         self.along(mesh, &lever)
     }
 
-    /// How a combination of displacements of both gears of a mesh follows the coordinates.
+    /// Derivatives, by the coordinates, of a combination of displacements of both gears of a mesh.
     pub fn along(&self, mesh: usize, lever: &Vector12) -> DVector<f64> {
         self.live[mesh].to_gears.tr_mul(lever)
     }
 
-    /// A pair at a state.
+    /// Quantities of a pair at a state.
     ///
     /// # Errors
     /// [`GearboxError`] of the mesh.
@@ -170,12 +170,12 @@ impl GearboxMechanism {
         })
     }
 
-    /// Loads on the flanks of a mesh that press where it was asked last ([`MovingMesh::loads`]).
+    /// Loads on the flanks in contact of a mesh at its last position ([`MovingMesh::loads`]).
     pub fn loads(&self, mesh: usize) -> Vec<SideLoads<'_>> {
         self.live[mesh].loads()
     }
 
-    /// Tooth changes of the driving flanks of a mesh; none of one without teeth that change.
+    /// Tooth changes of the driving flanks of a mesh; empty for a mesh whose teeth do not change.
     pub fn changes(&self, mesh: usize) -> ToothChanges {
         self.live[mesh].windows().map_or(ToothChanges::default(), |own| own.driving.changes)
     }

@@ -1,5 +1,4 @@
-//! A pair alone before it moves: what its machine is made of, and the few numbers that its motion is measured by.
-//! Theory (45), (47).
+//! A single pair before its motion: the data of its mechanism, and reference values of its motion. Theory (45), (47).
 
 use std::sync::Arc;
 
@@ -24,7 +23,7 @@ const NAMES: [[&str; COORDINATES]; 2] = [
 /// Phases of a mesh cycle at which the pair stands under its load.
 const STANDS: usize = 8;
 
-/// A pair alone: two rigid gears with their bearings, drive and load, and the flanks between them.
+/// A single pair: two rigid gears with their bearings, drive and load, and the flanks between them.
 #[derive(Debug, Clone)]
 pub struct PairModel {
     pair: GearPair,
@@ -41,11 +40,12 @@ enum PairMesh {
 }
 
 impl PairModel {
-    /// A pair whose driving flanks' gears are `driving`, and, for contact on the coast flanks, `coast`. `means`: mesh
-    /// stiffness (N/mm on the base circle) and length of contact lines (mm) that a damping ratio refers to.
+    /// A pair from gears for the driving flanks (`driving`) and, for contact on the coast flanks, `coast`. `means` are
+    /// the mesh stiffness (N/mm on the base circle) and the length of contact lines (mm) to which a damping ratio
+    /// refers.
     ///
     /// # Errors
-    /// [`GearboxError::Contact`].
+    /// [`GearboxError::Contact`] if the contact cannot be set up.
     pub fn new(
         pair: GearPair,
         driving: impl Into<Arc<[ElasticGear; 2]>>,
@@ -58,11 +58,12 @@ impl PairModel {
         Ok(Self { pair, options, means, mesh })
     }
 
-    /// The pair with normal modes of both gears as coordinates of their own: their share of the compliance of teeth and
+    /// The pair with normal modes of both gears as additional coordinates: their share of the compliance of teeth and
     /// bodies gets inertia, the rest stays quasi-static.
     ///
     /// # Errors
-    /// As of [`MovingExactMesh::with_modes`]; [`GearboxError::LessThanModes`] for bodies of other gears than were meshed.
+    /// The errors of [`MovingExactMesh::with_modes`]; [`GearboxError::LessThanModes`] for bodies of gears other than
+    /// those meshed.
     pub fn with_modes(self, gears: [GearVibration; 2]) -> Result<Self, GearboxError> {
         let PairMesh::Solved(home) = &self.mesh else {
             return Err(GearboxError::Unmapped { what: "normal modes of gears" });
@@ -73,7 +74,7 @@ impl PairModel {
         Ok(own)
     }
 
-    /// The pair on maps of its flanks.
+    /// The pair with maps of its flanks.
     #[must_use]
     pub fn on_map(&self, mesh: MappedMesh) -> Self {
         let coasts = self.flanks().is_some_and(MeshFlanks::has_coast_flanks);
@@ -93,12 +94,12 @@ impl PairModel {
         self.with_drive(self.options.drive.clone().at_speed(speed))
     }
 
-    /// Changes the options; gears and flanks stay.
+    /// Access to the options; gears and flanks do not change.
     pub fn options_mut(&mut self) -> &mut PairOptions {
         &mut self.options
     }
 
-    /// The pair as a machine at the place where its run begins; gears and tables are shared.
+    /// The mechanism of the pair at the position where its run begins; gears and tables are shared.
     ///
     /// # Errors
     /// [`GearboxError`].
@@ -112,22 +113,22 @@ impl PairModel {
         })
     }
 
-    /// The pair.
+    /// The gear pair.
     pub fn pair(&self) -> &GearPair {
         &self.pair
     }
 
-    /// Bodies, bearings, drives.
+    /// Bodies, bearings and drives.
     pub fn options(&self) -> &PairOptions {
         &self.options
     }
 
-    /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
+    /// Stiffness (N/mm) and length of contact lines (mm) to which damping refers.
     pub fn means(&self) -> [f64; 2] {
         self.means
     }
 
-    /// The flanks of its teeth; `None` of a pair on maps.
+    /// The flanks of its teeth; `None` for a pair with maps.
     pub fn flanks(&self) -> Option<&MeshFlanks> {
         match &self.mesh {
             PairMesh::Solved(home) => Some(home.flanks()),
@@ -135,7 +136,7 @@ impl PairModel {
         }
     }
 
-    /// The maps of a pair on maps.
+    /// The maps of a pair with maps.
     pub fn map(&self) -> Option<&MappedMesh> {
         match &self.mesh {
             PairMesh::Solved(_) => None,
@@ -143,7 +144,7 @@ impl PairModel {
         }
     }
 
-    /// Frequencies of the kept modes with the bores held, Hz, gear 1's first; empty without modes.
+    /// Frequencies of the kept modes with the bores held, Hz, those of gear 1 first; empty without modes.
     pub fn mode_frequencies_hz(&self) -> Vec<f64> {
         let modes = match &self.mesh {
             PairMesh::Solved(home) => home.kept_modes(),
@@ -153,22 +154,22 @@ impl PairModel {
         squares.map(|s| s.sqrt() / std::f64::consts::TAU).collect()
     }
 
-    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean
-    /// tangent stiffness.
+    /// Frequency at which the two gears vibrate against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the
+    /// mean tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
         (self.means[0] / self.equivalent_mass()).sqrt() / std::f64::consts::TAU
     }
 
-    /// Frequencies of [`Self::mesh_resonance_hz`] with both gears free, and with the driver's angle prescribed, Hz: the
-    /// drive decides which inertia counts.
+    /// Frequencies as in [`Self::mesh_resonance_hz`] with both gears free, and with the driver's angle prescribed, Hz.
+    /// The drive determines which inertia counts.
     pub fn mesh_resonances_hz(&self) -> [f64; 2] {
         let inertia = self.base_circle_masses();
         let driver = 1 - self.options.statics.driven();
         [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
     }
 
-    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact
-    /// lines.
+    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), with c for the mean length of
+    /// contact lines.
     pub fn mesh_resonance(&self) -> MeshResonance {
         let cos = self.pair.base_helix_angle().cos();
         let per_length = damping_per_length(&self.pair, &self.options, self.means);
@@ -181,7 +182,7 @@ impl PairModel {
         masses_on_base_circles(&self.pair, &self.options.bodies)
     }
 
-    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is
+    /// Inertia that vibrates on the mesh, t: that of both gears, or of the driven gear alone if the driver's angle is
     /// prescribed.
     pub fn equivalent_mass(&self) -> f64 {
         equivalent_mass_of(&self.pair, &self.options)
@@ -205,7 +206,7 @@ impl PairModel {
         self.options.drive.nominal().angle(t) / self.pitch()
     }
 
-    /// Time (s) at which so many mesh cycles have passed in the nominal motion; `None` where it stops before.
+    /// Time (s) at which a number of mesh cycles have passed in the nominal motion; `None` if the motion stops before.
     pub fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
         self.options.drive.nominal().time_at(cycles * self.pitch())
     }
@@ -214,13 +215,14 @@ impl PairModel {
         [&self.pair.pinion, &self.pair.wheel][self.options.statics.driven()]
     }
 
-    /// Size of a displacement at the flanks that counts as large, mm: how far the driven gear lags at rest (`lag`, mm), or
-    /// as much as its load deflects the mesh where that is more.
+    /// Magnitude of a displacement at the flanks that counts as large, mm: the lag of the driven gear in static
+    /// equilibrium (`lag`, mm) or, if larger, the deflection of the mesh under its load.
     ///
     /// ```text
     /// max(|lag|, T / (r_b k_m))
     /// ```
-    /// A lag is a place, which misalignment and micro-geometry move through zero and below it; a deflection is a size.
+    /// A lag is a position, which misalignment and micro-geometry can move through zero to negative values; a
+    /// deflection is a magnitude.
     pub fn motion_size(&self, lag: f64) -> f64 {
         let deflection = self.options.statics.torque.abs() / (self.driven().base_radius().abs() * self.means[0]);
         // Gears without stiffness or load have no deflection.
@@ -231,8 +233,8 @@ impl PairModel {
         matches!(self.options.drive, Drive::Torque { .. })
     }
 
-    /// Names of the coordinates but modes, in their order. Modes are the last, but for the turn of a driver that a torque
-    /// drives.
+    /// Names of the coordinates except modes, in order. Modes come last, followed only by the rotation of a driver that
+    /// a torque drives.
     pub fn names(&self) -> Vec<&'static str> {
         let driven = self.options.statics.driven();
         let mut names = Vec::new();
@@ -245,13 +247,13 @@ impl PairModel {
         names
     }
 
-    /// Number of the coordinate that is the driven gear's lag, mm.
+    /// Index of the coordinate that is the driven gear's lag, mm.
     pub fn lag(&self) -> usize {
         self.names().iter().position(|name| *name == "transmission error").unwrap_or(0)
     }
 
-    /// Sizes of the coordinates that belong to a displacement of `length` (mm) at the flanks: turns are taken over the base
-    /// radius of the driven gear, a mode's is what moves a flank by as much.
+    /// Magnitudes of the coordinates that correspond to a displacement of `length` (mm) at the flanks: rotations use
+    /// the base radius of the driven gear, a mode the amplitude that moves a flank by this length.
     pub fn scale(&self, length: f64) -> DVector<f64> {
         let lever = self.driven().base_radius().abs();
         let one = |name: &&str| if name.contains("tilt") || name.contains("turn") { length / lever } else { length };
@@ -262,11 +264,11 @@ impl PairModel {
         DVector::from_vec(all)
     }
 
-    /// What maps of its flanks must hold: about where the pair stands under the mean of its load, forces up to `overload`
-    /// times its, to an error of `tolerance`, or of `worst` at the most.
+    /// Requirements for maps of its flanks: near the equilibrium of the pair under its mean load, for forces up to
+    /// `overload` times its force, to an error of `tolerance`, or at most `worst`.
     ///
     /// # Errors
-    /// [`GearboxError::Unmapped`] without load; those of the start.
+    /// [`GearboxError::Unmapped`] without load; the errors of the start.
     pub fn map_request(&self, overload: f64, [tolerance, worst]: [f64; 2]) -> Result<MapRequest, GearboxError> {
         // A load that swings would not let the pair stand: the map is made about its mean.
         let mean = self.options.mean_load();

@@ -1,14 +1,15 @@
-//! The course of a pair in motion, and what is read off it.
+//! Runs the motion of a pair and reads its results.
 
 use integrate::{Compared, Course, Goal, Ledger, OnlyRows, Periodicity, Row, Settle};
 
 use super::{GearboxMechanism, MotionTimes, PairInstant};
 use crate::GearboxError;
 
-/// A pair's motion under way.
+/// Motion of a pair in progress.
 pub type PairMotion = Course<GearboxMechanism, MotionTimes>;
 
-/// Reads the instant of every row of a motion; `seen` gets it with the energy so far and the mechanism as it stands there.
+/// Reads the instant of every row of a motion. `seen` receives it with the energy so far and the mechanism in that
+/// state.
 pub fn instants(
     mut seen: impl FnMut(&PairInstant, &Ledger, &GearboxMechanism),
 ) -> impl FnMut(Row<'_, GearboxMechanism>) -> Result<(), GearboxError> {
@@ -19,13 +20,13 @@ pub fn instants(
     }
 }
 
-/// What tells whether a pair's motion repeats itself: all coordinates, after as many mesh cycles as it takes until the same
-/// teeth meet where these differ, but the modes', whose amplitudes are in the gears' own frames and come back after whole
-/// turns only. `None` of a motion that need not settle and whose teeth do not come back in time.
+/// Selects what is compared to decide whether a pair's motion repeats: all coordinates, after as many mesh cycles as
+/// the same teeth need to meet again if they differ. Amplitudes of modes are not compared, because they are in the
+/// gears' own frames and repeat only after whole rotations. `None` for a motion that need not settle and whose teeth do
+/// not meet again in time.
 ///
 /// # Errors
-/// [`GearboxError::NoCommonPeriod`] where the motion is to settle and its teeth do not
-/// come back before.
+/// [`GearboxError::NoCommonPeriod`] if the motion must settle and its teeth do not meet again before the limit.
 pub fn compared(
     motion: &PairMotion,
     settle: Option<&Settle>,
@@ -37,10 +38,10 @@ pub fn compared(
     Ok(system.common_period().map(|period| system.compared(motion.timetable().scale.clone(), period)))
 }
 
-/// Runs mesh cycles until the motion repeats itself within `tolerance`, until `most` are done at the most.
+/// Runs mesh cycles until the motion repeats within `tolerance`, at most `most` cycles.
 ///
 /// # Errors
-/// [`GearboxError`]. A motion that does not become periodic is none: its residual says so.
+/// [`GearboxError`] of the motion. A motion that does not become periodic is not an error; its residual shows it.
 pub fn run_to_steady(motion: &mut PairMotion, tolerance: f64, most: u64) -> Result<Periodicity, GearboxError> {
     let goal = steady_goal(motion, (tolerance, most), 0)?;
     motion.settle(&goal, &mut OnlyRows(|_: Row<'_, GearboxMechanism>| Ok::<_, GearboxError>(())))?;

@@ -11,63 +11,63 @@ use super::{
 };
 use crate::GearboxError;
 
-/// Method that finds a steady state.
+/// Method for the steady state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SteadyBy {
-    /// Integrates until the motion repeats itself.
+    /// Integrates until the motion repeats.
     Running,
-    /// Shoots first, then integrates the motions that are left.
+    /// Shoots first, then integrates the motions that did not converge.
     Shooting,
 }
 
 /// Options of the search for a steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadyOptions {
-    /// Method that finds it.
+    /// Method of the search.
     pub by: SteadyBy,
-    /// Difference over a period over the peak to peak that counts as none.
+    /// Difference over a period, relative to the peak to peak, that counts as periodic.
     pub tolerance: f64,
-    /// Mesh cycles to wait at the most.
+    /// Largest number of mesh cycles to wait.
     pub most: u64,
-    /// Mesh cycles with rows after that.
+    /// Number of mesh cycles with rows after that.
     pub cycles: u64,
 }
 
-/// Speeds, directions, and options of each point.
+/// Speeds, directions, and options of each point of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepPlan {
     /// Speeds of the driver, rad/s, ascending, > 0.
     pub speeds: Vec<f64>,
-    /// Directions in which to go through them.
+    /// Directions of the sweep through the speeds.
     pub ways: Vec<SweepDirection>,
     /// Method, rows and steps.
     pub times: MotionTimes,
-    /// Steady state.
+    /// Options of the search for a steady state.
     pub steady: SteadyOptions,
 }
 
-/// Result at one speed.
+/// Result of a sweep at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepPoint {
     /// Speed of the driver, rad/s.
     pub speed: f64,
     /// Direction of the sweep.
     pub way: SweepDirection,
-    /// Whether it began in its own quasi-static equilibrium, not where a speed beside it ended.
+    /// Whether the run started in its own quasi-static equilibrium instead of the final state at a neighbouring speed.
     pub own_start: bool,
-    /// Periodicity of the motion: how well it repeats itself.
+    /// Periodicity of the motion: how accurately it repeats.
     pub periodicity: Periodicity,
-    /// Mesh cycles waited.
+    /// Number of mesh cycles waited.
     pub waited: u64,
-    /// Dynamic transmission error row by row, mm.
+    /// Dynamic transmission error of each row, mm.
     pub transmission_error: Vec<f64>,
-    /// Sum of the normal forces on the driving flanks row by row, N.
+    /// Sum of the normal forces on the driving flanks of each row, N.
     pub normal_force: Vec<f64>,
-    /// Sum of the normal forces on the coast flanks, largest, N.
+    /// Largest sum of the normal forces on the coast flanks, N.
     pub coast_force: f64,
     /// Largest force of a bearing, N; 0 without bearings.
     pub bearing_force: f64,
-    /// Energy from the start of this speed on, its settling included.
+    /// Energy balance from the start of this speed on, including the settling.
     pub ledger: Ledger,
     /// Extremes over the same time.
     pub extremes: Extremes,
@@ -75,29 +75,29 @@ pub struct SweepPoint {
     pub changes: ToothChanges,
 }
 
-/// A speed without a result.
+/// A speed of a sweep without a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepMiss {
     /// Speed of the driver, rad/s.
     pub speed: f64,
     /// Direction of the sweep.
     pub way: SweepDirection,
-    /// Why: of its own quasi-static start, where it was tried from there as well.
+    /// Error of the run. If the run was repeated from its own quasi-static start, it is the error of that run.
     pub error: GearboxError,
 }
 
 /// Outcome of a sweep at one speed.
 pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 
-/// Sweeps `system` through speeds. Directions, and independent speeds, run in parallel; results are the same for any
-/// number of threads.
+/// Sweeps `system` through speeds. Directions, and independent speeds, run in parallel. The results are the same for
+/// any number of threads.
 ///
-/// A speed that cannot go on from its neighbour starts again in its own quasi-static equilibrium. After a speed without
-/// a result the sweep goes on from the last one that has a result. `seen` gets each outcome and may end its direction
-/// there. Outcomes are in the order of directions, and of speeds within each.
+/// If a speed cannot continue from its neighbour, it is started again in its own quasi-static equilibrium. After a
+/// speed without a result the sweep continues from the last speed with a result. `seen` receives each outcome and may
+/// end its direction there. Outcomes are in the order of directions, and of speeds in each direction.
 ///
 /// # Errors
-/// [`GearboxError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
+/// [`GearboxError::SweepByTorque`] if the input is driven by a given torque, because the sweep prescribes the speed.
 pub fn sweep(
     system: &PairModel,
     plan: &SweepPlan,

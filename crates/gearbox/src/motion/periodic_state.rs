@@ -7,12 +7,13 @@ use periodic::{Shooting, Shot};
 use super::{GearboxMechanism, MotionPlan, PairMotion};
 use crate::GearboxError;
 
-/// Brings a motion onto its periodic solution of `period` mesh cycles, or as near to one as shooting comes: the residual tells.
-/// It goes on from there; energy and counts begin anew.
+/// Brings a motion to its periodic solution over `period` mesh cycles, or as near to it as shooting gets; the residual
+/// shows how near. The motion continues from there; energy and counts restart.
 ///
 /// # Errors
-/// [`GearboxError::FreeInput`] where a torque drives: speed and position of the input are free then.
-/// [`GearboxError::ModesWithoutPeriod`] with modes of a gear that is not known by sectors; [`GearboxError::Motion`].
+/// [`GearboxError::FreeInput`] if a torque drives, because speed and position of the input are then free;
+/// [`GearboxError::ModesWithoutPeriod`] with modes of a gear that is not condensed by sectors;
+/// [`GearboxError::Motion`].
 pub fn shoot(motion: &mut PairMotion, period: u64, tolerance: f64) -> Result<Shot, GearboxError> {
     if motion.system().free.turn.is_some() {
         return Err(GearboxError::FreeInput);
@@ -27,11 +28,11 @@ pub fn shoot(motion: &mut PairMotion, period: u64, tolerance: f64) -> Result<Sho
 }
 
 impl GearboxMechanism {
-    /// The stable periodic state near where a period begins, at the same time; `None` where none is near, or the search leads
-    /// out of what the meshes hold.
+    /// The stable periodic state near the start of a period, at the same time; `None` if none is near, or if the search
+    /// leaves the valid range of the meshes.
     ///
     /// # Errors
-    /// [`GearboxError`] where the mechanism cannot be put back; [`GearboxError::ModesWithoutPeriod`].
+    /// [`GearboxError`] if the mechanism cannot be restored; [`GearboxError::ModesWithoutPeriod`].
     pub fn nearer(&mut self, period: &Ahead, tolerance: f64) -> Result<Option<State>, GearboxError> {
         if self.free.turn.is_some() {
             return Ok(None);

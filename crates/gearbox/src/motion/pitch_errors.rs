@@ -1,27 +1,27 @@
-//! Teeth that stand where they should not: pitch errors of both gears as the mesh meets them. Theory (94).
+//! Pitch errors of both gears in the order in which the teeth come into mesh. Theory (94).
 
 use contact_map::PairOffsets;
 
 use crate::GearboxError;
 
-/// Deviations of the teeth of gear 1 and gear 2, mm along the normal of the flanks that drive: positive where a tooth
-/// stands nearer to its mate.
+/// Deviations of the teeth of gear 1 and gear 2, mm along the normal of the driving flanks; positive if a tooth is
+/// nearer to its mate.
 ///
 /// ```text
 /// e(c) = sum over pairs k of w(c - k) (e_1[k mod z_1] + e_2[-k mod z_2]),   w(x) = 1 - 3 y^2 + 2 y^3,  y = |x - 1/2| <= 1
 /// ```
-/// A spring stands for all pairs in contact at once: the load goes over from one pair to the next within a cycle, by
-/// weights that add up to 1 and have no corner. Gear 2 turns the other way, so that its teeth come in descending order.
+/// A spring represents all pairs in contact at once. Within a cycle the load passes from one pair to the next with
+/// smooth weights that add up to 1. Gear 2 rotates in the opposite sense, so its teeth come in descending order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PitchErrors {
     offsets: PairOffsets,
 }
 
 impl PitchErrors {
-    /// Pitch errors of the teeth of both gears, an entry a tooth; an empty list for a gear without errors.
+    /// Pitch errors of the teeth of both gears, one entry per tooth; an empty list for a gear without errors.
     ///
     /// # Errors
-    /// [`GearboxError::OutOfRange`] where an entry is no number.
+    /// [`GearboxError::OutOfRange`] if an entry is not a finite number.
     pub fn new(teeth: [Vec<f64>; 2]) -> Result<Self, GearboxError> {
         match teeth.iter().flatten().copied().find(|e| !e.is_finite()) {
             Some(value) => Err(GearboxError::OutOfRange { part: "teeth".into(), quantity: "pitch error, mm", value }),
@@ -29,7 +29,7 @@ impl PitchErrors {
         }
     }
 
-    /// e (mm) and de/dc (mm a cycle) at a place in the mesh cycles.
+    /// e (mm) and de/dc (mm per cycle) at a position in the mesh cycles.
     pub fn at(&self, cycles: f64) -> [f64; 2] {
         // The pair whose middle is behind, and the one whose middle is ahead.
         let behind = (cycles - 0.5).floor();
@@ -39,7 +39,7 @@ impl PitchErrors {
         [a + share * (b - a), 6.0 * y * (1.0 - y) * (b - a)]
     }
 
-    /// Mesh cycles after which the same teeth meet again.
+    /// Number of mesh cycles after which the same teeth meet again.
     pub fn period(&self) -> u64 {
         self.offsets.period()
     }

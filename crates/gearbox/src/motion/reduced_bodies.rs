@@ -1,4 +1,4 @@
-//! Shafts in motion with few coordinates: component mode synthesis after Craig and Bampton. Theory (91).
+//! Moving shafts with few coordinates: component mode synthesis after Craig and Bampton. Theory (91).
 
 use std::ops::Range;
 
@@ -22,7 +22,8 @@ const MOST: f64 = 1e9;
 /// ```text
 /// q = T y_seats + Phi y_modes,   T: how all nodes follow the seats at rest,   K_ii Phi = M_ii Phi omega^2,  omega <= 2 omega_max, and more
 /// ```
-/// Seats are the nodes of all discs and bearings, six coordinates each; what forces act on is kept as it is.
+/// Seats are the nodes of all discs and bearings, with six coordinates each. Coordinates on which forces act are not
+/// reduced.
 #[derive(Debug, Clone)]
 pub struct ReducedBodies {
     /// First coordinate of the seats' nodes among those of the assembly, ascending, and the shaft of each.
@@ -38,27 +39,28 @@ pub struct ReducedBodies {
     certificate: ReductionCertificate,
 }
 
-/// How well few coordinates stand for all.
+/// Accuracy of the reduced coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReductionCertificate {
-    /// Coordinates of the whole, and of the reduced model.
+    /// Number of coordinates of the full model, and of the reduced model.
     pub coordinates: [usize; 2],
-    /// Retained modes of the shafts, with their seats held.
+    /// Number of retained shaft modes, with the seats held.
     pub modes: usize,
-    /// Frequency that was asked for, rad/s.
+    /// Frequency limit requested, rad/s.
     pub limit: f64,
-    /// Natural frequencies up to there, without meshes and at rest, that were compared with those of the whole.
+    /// Number of natural frequencies up to the limit, without meshes and without spin, that were compared with those of
+    /// the full model.
     pub compared: usize,
     /// Largest relative difference among them.
     pub error: f64,
 }
 
 impl ReducedBodies {
-    /// Reduces an assembly whose shafts `held` neither bend nor shift; natural frequencies up to `limit` (rad/s) are held
-    /// against those of all nodes, and modes are added until they are off by half a per cent at the most.
+    /// Reduces an assembly whose shafts `held` neither bend nor shift. Natural frequencies up to `limit` (rad/s) are
+    /// compared with those of the full model, and modes are added until the difference is at most half a per cent.
     ///
     /// # Errors
-    /// [`GearboxError::OutOfRange`] for a limit that is not above 0, [`GearboxError::Matrix`] where a coordinate has
+    /// [`GearboxError::OutOfRange`] for a limit that is not above 0, [`GearboxError::Matrix`] if a coordinate has
     /// neither mass nor stiffness.
     pub fn new(assembly: &Assembly, held: &[bool], limit: f64) -> Result<Self, GearboxError> {
         if !(limit > 0.0 && limit.is_finite()) {
@@ -181,7 +183,7 @@ impl ReducedBodies {
         own.map(|(own, by_turn)| by_turn[coordinate - own.start])
     }
 
-    /// How well they stand for all nodes.
+    /// Accuracy compared with the full model.
     pub fn certificate(&self) -> &ReductionCertificate {
         &self.certificate
     }

@@ -1,4 +1,4 @@
-//! Rolling bearings in motion: their laws, beside the springs that a mechanism is made with. Theory (101a).
+//! Laws of rolling bearings in motion, as differences from the springs with which a mechanism is made. Theory (101a).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -57,7 +57,8 @@ pub(super) struct BesideSprings {
 }
 
 impl RollingSupports {
-    /// Supports of a structure with laws, whose shafts `held` do not move; `force` (N): about what a bearing carries.
+    /// Supports of a structure with bearing laws, whose shafts `held` do not move; `force` (N) is the typical load of a
+    /// bearing.
     pub fn new(
         structure: &Structure,
         held: &[bool],
@@ -81,7 +82,8 @@ impl RollingSupports {
         Ok(Self { supports, bearings, seats, rough, stored, to_bearings })
     }
 
-    /// What the laws do beside `springs` with the energy `stored` of nothing displaced, at a place z of the motion.
+    /// Difference of the laws from `springs`, which have the energy `stored` without displacement, at a position z of
+    /// the motion.
     ///
     /// ```text
     /// V(u) - (u' S_0 u/2 - p_0 . u + V_0),   u = A z
@@ -105,7 +107,7 @@ impl RollingSupports {
         Ok(BesideSprings { energy, force, stiffness })
     }
 
-    /// Bearings and housing at a place z of the motion.
+    /// Bearings and housing at a position z of the motion.
     ///
     /// # Errors
     /// [`GearboxError::NoEquilibrium`] of the seats.
@@ -172,7 +174,7 @@ impl RollingSupports {
         Ok(own)
     }
 
-    /// Displacements of the shafts against their seats, and elastic forces on the shafts, six a bearing.
+    /// Displacements of the shafts relative to their seats, and elastic forces on the shafts, six entries per bearing.
     pub fn standing(&self, pressed: &Pressed) -> [DVector<f64>; 2] {
         let [relative, mut forces] = self.supports.standing(&pressed.at);
         for (own, reply) in self.bearings.iter().zip(&pressed.replies) {

@@ -1,4 +1,4 @@
-//! The course of a gearbox in motion, and how it ended.
+//! Run of a gearbox motion, and its result.
 
 use dynamics::{Extremes, ToothChanges};
 use integrate::{Checkpoint, Compared, Counts, Course, Goal, Ledger, Mechanism, Periodicity, Row, Settle, State};
@@ -10,24 +10,24 @@ use super::{
 };
 use crate::GearboxError;
 
-/// A state of a gearbox's motion to go on from.
+/// A state of a gearbox motion from which it can be continued.
 pub type GearboxCheckpoint = Checkpoint<GearboxMemory>;
 
-/// A gearbox's motion under way.
+/// Motion of a gearbox in progress.
 pub type GearboxCourse<'a> = Course<&'a mut GearboxMechanism, MotionTimes>;
 
-/// What the flanks of a mesh went through in a motion.
+/// Events and extremes of a mesh's flanks in a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankCourse {
-    /// How often the driving flanks came apart.
+    /// Number of times the driving flanks separated.
     pub contact_losses: u64,
-    /// How often the coast flanks met.
+    /// Number of times the coast flanks came into contact.
     pub coast_contacts: u64,
     /// Extremes at the ends of steps.
     pub extremes: Extremes,
     /// Tooth changes of the driving flanks.
     pub changes: ToothChanges,
-    /// How much of what the mesh holds the motion has used at most ([`super::MovingMesh::reach`]).
+    /// Largest share of the mesh's valid range used by the motion ([`super::MovingMesh::reach`]).
     pub reach: f64,
 }
 
@@ -36,35 +36,36 @@ pub struct FlankCourse {
 pub struct GearboxRun {
     /// State at the start and at the end.
     pub states: [State; 2],
-    /// Energy of the deviations as the integrator has it.
+    /// Energy of the deviations in the integrator's ledger.
     pub ledger: Ledger,
     /// Energy in common axes.
     pub energy: GearboxEnergy,
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
-    /// Steps in a cycle of the fastest mesh with rows, on average.
+    /// Average number of steps per cycle of the fastest mesh, over the cycles with rows.
     pub steps_per_cycle: Option<f64>,
-    /// Steps that were taken in parts or anew, where one had no solution or too large an error.
+    /// Number of steps that were divided or repeated because they had no solution or too large an error.
     pub divided: u64,
-    /// What the flanks of each mesh went through.
+    /// Events and extremes of the flanks of each mesh.
     pub flanks: Vec<FlankCourse>,
-    /// Work that the torques of the outputs took in the nominal motion, over all cycles, N mm.
+    /// Work of the output torques in the nominal motion, over all cycles, N mm.
     pub throughput: f64,
     /// Cycles of the fastest mesh before the rows.
     pub warm_up: u64,
-    /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where no common period
-    /// of all meshes was compared with another.
+    /// Final periodicity of the motion, its period in cycles of the fastest mesh; `None` if no two common periods of
+    /// all meshes were compared.
     pub periodicity: Option<Periodicity>,
-    /// Cycles of the fastest mesh after which all meshes are where they began ([`GearboxMechanism::common_period`]).
+    /// Number of cycles of the fastest mesh after which all meshes are in their initial positions
+    /// ([`GearboxMechanism::common_period`]).
     pub common_period: Option<u64>,
 }
 
 impl GearboxMechanism {
-    /// Runs from `start`; `seen` is told of rows, the start, or the state to which the motion has settled, among them. A
-    /// plan that shoots takes it to its periodic state by Newton's method once it nearly repeats itself.
+    /// Runs from `start`. `seen` receives the rows, including the initial state, or the state to which the motion has
+    /// settled. A plan that shoots brings the motion to its periodic state by Newton's method once it nearly repeats.
     ///
     /// # Errors
-    /// [`GearboxError::Motion`] of the integrator, those of the meshes; as of [`GearboxMechanism::goal`].
+    /// [`GearboxError::Motion`] of the integrator, the errors of the meshes, and those of [`GearboxMechanism::goal`].
     pub fn run(
         &mut self,
         start: &State,
@@ -81,7 +82,7 @@ impl GearboxMechanism {
         GearboxRun::of(course, start)
     }
 
-    /// The motion from `start`, or from a state on the way of an earlier one from the same start.
+    /// The motion from `start`, or from an intermediate state of an earlier motion with the same start.
     ///
     /// # Errors
     /// [`GearboxError::Motion`] for a state of another gearbox.
@@ -102,11 +103,11 @@ impl GearboxMechanism {
         })
     }
 
-    /// What a plan asks of a motion from `start`, without checkpoints.
+    /// Goal of a motion from `start` according to a plan, without checkpoints.
     ///
     /// # Errors
-    /// [`GearboxError::NoCommonPeriod`] where the motion is to settle and its meshes do not come back together in time,
-    /// [`GearboxError::ModesWithoutPeriod`] where it is to shoot.
+    /// [`GearboxError::NoCommonPeriod`] if the motion must settle and its meshes do not repeat together in time,
+    /// [`GearboxError::ModesWithoutPeriod`] if it must shoot.
     pub fn goal<'a>(&self, start: &State, plan: &MotionPlan) -> Result<Goal<&'a mut Self>, GearboxError> {
         let compared = match plan.settle {
             Some(Settle { most, .. }) => {
@@ -130,10 +131,10 @@ impl GearboxMechanism {
         })
     }
 
-    /// The common period ([`Self::common_period`]) of a motion that settles in so many cycles at the most.
+    /// The common period ([`Self::common_period`]), if the motion settles within `most` cycles.
     ///
     /// # Errors
-    /// [`GearboxError::NoCommonPeriod`] where there is none, or it is longer.
+    /// [`GearboxError::NoCommonPeriod`] if there is none, or if it is longer.
     pub fn back_within(&self, most: u64) -> Result<u64, GearboxError> {
         let period = self.common_period();
         period.filter(|p| *p <= most.max(1)).ok_or(GearboxError::NoCommonPeriod { period, most })
@@ -145,7 +146,7 @@ impl GearboxMechanism {
         Compared::States { scale, free: self.free.turn, period }
     }
 
-    /// What the flanks of a mesh went through in a motion with these counts.
+    /// Events and extremes of a mesh's flanks in a motion with these counts.
     pub fn flank_course(&self, mesh: usize, counts: &Counts) -> FlankCourse {
         FlankCourse {
             contact_losses: counts.downs(2 * mesh),
@@ -156,8 +157,8 @@ impl GearboxMechanism {
         }
     }
 
-    /// Cycles of the fastest mesh after which every mesh has gone through whole cycles, and the teeth that meet are those of
-    /// before where they differ ([`super::MovingMesh::period`]); `None` where that takes more than 100,000.
+    /// Number of cycles of the fastest mesh after which every mesh has gone through whole cycles and, if teeth differ,
+    /// the same teeth meet again ([`super::MovingMesh::period`]); `None` if that takes more than 100,000.
     pub fn common_period(&self) -> Option<u64> {
         let fastest = self.fastest();
         // Numbers of teeth are whole: what is no multiple is off by more than the inverse of the longest period.
@@ -174,10 +175,10 @@ impl GearboxMechanism {
 const LONGEST: u64 = 100_000;
 
 impl GearboxRun {
-    /// Result of the course of a motion from `start`.
+    /// Result of a motion that started at `start`.
     ///
     /// # Errors
-    /// Those of the meshes.
+    /// The errors of the meshes.
     pub fn of(course: GearboxCourse<'_>, start: &State) -> Result<Self, GearboxError> {
         let (state, ledger) = (course.state().clone(), course.ledger().copied().unwrap_or_default());
         let (counts, stage, steps_per_cycle) = (course.counts().clone(), course.stage(), course.steps_per_cycle());

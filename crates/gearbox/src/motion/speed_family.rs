@@ -1,5 +1,5 @@
-//! A gearbox over the speed of its input, as the search for periodic motions asks for it: a linear machine, and meshes that see
-//! few of its displacements. Theory (71a).
+//! A gearbox over the speed of its input, in the form that the search for periodic motions needs: a linear machine, and
+//! meshes that depend on few of its displacements. Theory (71a).
 
 use std::f64::consts::TAU;
 
@@ -56,13 +56,13 @@ impl Seen {
 }
 
 impl<'a> SpeedFamily<'a> {
-    /// The meshes of a gearbox, and the machine between them with modal damping as it is, about an equilibrium; with the cycles
-    /// of the fastest mesh in a period, so many common periods of all meshes.
+    /// The meshes of a gearbox, and the machine between them, about an equilibrium and with its current modal damping.
+    /// A period has several common periods of all meshes, counted in cycles of the fastest mesh.
     ///
     /// # Errors
-    /// [`GearboxError::NoBranch`] where the input does not keep its speed or a mesh cannot say what it sees,
-    /// [`GearboxError::LongPeriod`] where the meshes have no common period of up to 1000 harmonics, `per_cycle` for a cycle of
-    /// the fastest; those of the meshes.
+    /// [`GearboxError::NoBranch`] if the input does not have a given speed or a mesh has no levers;
+    /// [`GearboxError::LongPeriod`] if the meshes have no common period of up to 1000 harmonics, with `per_cycle`
+    /// harmonics per cycle of the fastest mesh; the errors of the meshes.
     pub fn new(
         mechanism: &'a mut GearboxMechanism,
         rest: &State,
@@ -112,7 +112,7 @@ impl<'a> SpeedFamily<'a> {
         Ok((family, machine, cycles))
     }
 
-    /// Cycles of each mesh in a period.
+    /// Number of cycles of each mesh in a period.
     pub fn mesh_cycles(&self) -> Vec<u64> {
         self.mechanism.live.iter().map(|m| (m.cycles_per_turn * self.turn).abs().round() as u64).collect()
     }

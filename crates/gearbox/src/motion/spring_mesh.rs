@@ -1,4 +1,5 @@
-//! A mesh as a spring whose stiffness follows the mesh cycle, with pitch errors, backlash and a damper. Theory (94).
+//! A mesh as a spring whose stiffness varies over the mesh cycle, with pitch errors, backlash and a damper. Theory
+//! (94).
 
 use std::f64::consts::TAU;
 
@@ -53,7 +54,7 @@ impl Pressed {
     }
 }
 
-/// A mesh of few numbers: for vibration of the shafts, where the contact itself is not asked for.
+/// A mesh with few parameters, for vibration of the shafts when the details of the contact are not needed.
 #[derive(Debug, Clone)]
 pub struct SpringMesh {
     sides: [Option<Flanks>; 2],
@@ -65,12 +66,12 @@ pub struct SpringMesh {
 }
 
 impl SpringMesh {
-    /// The flanks that drive, of a mesh as it runs; `stiffness` along the normal (N/mm) over the phase, 2 pi a mesh
-    /// cycle. Without errors, backlash and damping.
+    /// The driving flanks of a mesh as it runs. `stiffness` along the normal (N/mm) is a function of the phase; 2 pi is
+    /// one mesh cycle. Without errors, backlash and damping.
     ///
     /// # Errors
-    /// [`GearboxError::Mesh`] where the gears have no line of action, [`GearboxError::OutOfRange`] for a stiffness that
-    /// is not above 0 everywhere.
+    /// [`GearboxError::Mesh`] if the gears have no line of action, [`GearboxError::OutOfRange`] for a stiffness that is
+    /// not above 0 everywhere.
     pub fn new(mesh: &GearMesh, meshing: &Meshing, stiffness: Fourier) -> Result<Self, GearboxError> {
         let least = stiffness.least();
         if !(least > 0.0 && least.is_finite()) {
@@ -96,10 +97,10 @@ impl SpringMesh {
         Self { errors, ..self }
     }
 
-    /// Mesh with the coast flanks at the pair's backlash, along their own line of action.
+    /// Mesh with coast flanks at the pair's backlash, along their own line of action.
     ///
     /// # Errors
-    /// As [`SpringMesh::new`].
+    /// The errors of [`SpringMesh::new`].
     pub fn with_coast_flanks(mut self, mesh: &GearMesh, meshing: &Meshing) -> Result<Self, GearboxError> {
         let line = line(mesh, meshing.side().opposite())?;
         // Backlash is counted on the transverse line of action.
@@ -114,8 +115,8 @@ impl SpringMesh {
         self
     }
 
-    /// Mesh with a damper along the normal, N s/mm, limited to the force of the flanks: it neither pulls, nor pushes
-    /// where contact only begins.
+    /// Mesh with a damper along the normal, N s/mm, limited by the force of the flanks: it never pulls, and exerts no
+    /// force where contact only begins.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
         Self { damping, ..self }

@@ -1,4 +1,4 @@
-//! How long the steps of an explicit method may be. Theory (48a).
+//! Largest stable step of explicit methods. Theory (48a).
 
 use integrate::{Forces, Mechanism, Resumable, Scheme, StepLimit, Stiffest};
 use nalgebra::DVector;
@@ -10,14 +10,15 @@ use crate::GearboxError;
 const PHASES: u32 = 16;
 
 impl GearboxMechanism {
-    /// Longest step with which `scheme` is stable through the first cycle of the fastest mesh: the smallest limit of its
-    /// phases, each in quasi-static balance, with the tangents of teeth, bearings, dampers and modes there.
+    /// Longest step with which `scheme` is stable through the first cycle of the fastest mesh. It is the smallest limit
+    /// over the phases of that cycle, each in quasi-static equilibrium, with the tangents of teeth, bearings, dampers
+    /// and modes there.
     ///
-    /// `None` for implicit methods, which are stable with any step. Modal damping is that of [`Self::start`], which comes
-    /// before; what a mesh remembers is left as it was.
+    /// `None` for implicit methods, which are stable with any step. The modal damping is that set by [`Self::start`],
+    /// which must be called before. The memory of the meshes does not change.
     ///
     /// # Errors
-    /// As of [`Self::start`].
+    /// The errors of [`Self::start`].
     pub fn stable_step(&mut self, scheme: Scheme) -> Result<Option<StepLimit>, GearboxError> {
         let Some(mut stiffest) = Stiffest::new(scheme, self.mass()) else { return Ok(None) };
         let before = self.memory();

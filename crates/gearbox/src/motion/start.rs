@@ -1,4 +1,4 @@
-//! Where a motion begins: in equilibrium, moving on as the equilibrium moves.
+//! Start of a motion: in equilibrium, moving with the change of the equilibrium.
 
 use dynamics::ModalForce;
 use fem::natural_modes;
@@ -23,14 +23,14 @@ const LAST_BITS: f64 = 256.0;
 const ONE_DIGIT: f64 = 10.0;
 
 impl GearboxMechanism {
-    /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly and its loads change, its
-    /// acceleration held; and modal damping about it from now on.
+    /// State at t = 0 in equilibrium. Its rates are those at which the equilibrium changes as the train slowly rotates
+    /// and its loads change, with constant acceleration. Sets the modal damping about this equilibrium.
     ///
     /// ```text
     /// C += M Phi diag(2 zeta omega) Phi' M,   (K - df_mesh/dz) Phi = M Phi omega^2
     /// ```
     /// # Errors
-    /// [`GearboxError`] where there is no equilibrium.
+    /// [`GearboxError`] if there is no equilibrium.
     pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
         self.start_at(0.0, modal_damping)
     }
@@ -38,7 +38,7 @@ impl GearboxMechanism {
     /// The same at another time, s.
     ///
     /// # Errors
-    /// As of [`Self::start`].
+    /// The errors of [`Self::start`].
     pub fn start_at(&mut self, time: f64, modal_damping: f64) -> Result<State, GearboxError> {
         let [angle, speed] = self.nominal_turn(time);
         let acceleration = self.acceleration(time);
@@ -91,7 +91,7 @@ impl GearboxMechanism {
         (load_n <= ONE_DIGIT * lost_n).then_some(GearboxError::LostLoad { load_n, lost_n })
     }
 
-    /// Sizes of the coordinates: what deflections and turns are at `state`.
+    /// Magnitudes of the coordinates: the deflections and rotations at `state`.
     pub fn scale(&self, state: &State) -> DVector<f64> {
         let modes: Vec<usize> = self.gears.sizes(0.0).map(|(i, _)| i).collect();
         let of = |turns: bool| {
@@ -123,10 +123,10 @@ impl GearboxMechanism {
         self.meshes.iter().enumerate().map(of).fold(1e-6, f64::max)
     }
 
-    /// Equilibrium with a mesh gone on by so many cycles, under the loads of a time (s).
+    /// Equilibrium with a mesh advanced by a number of cycles, under the loads at a time (s).
     ///
     /// # Errors
-    /// As of [`Self::start`].
+    /// The errors of [`Self::start`].
     pub fn standing_at(
         &mut self,
         mesh: usize,

@@ -1,4 +1,5 @@
-//! A mesh as a spring in the plane of action that is pressed and tilted, about the load that it was made at. Theory (94a).
+//! A mesh as a spring in the plane of action that is compressed and tilted, valid near the load at which it was made.
+//! Theory (94a).
 
 use std::f64::consts::TAU;
 
@@ -27,14 +28,15 @@ pub(super) struct TiltingCoefficients {
     pub tilt: f64,
 }
 
-/// The driving flanks by one energy of approach and tilt; the other flanks as a [`SpringMesh`].
+/// The driving flanks as one energy of approach and tilt; the coast flanks as a [`SpringMesh`].
 ///
 /// ```text
 /// V = delta^2 B/2  (delta > 0),   delta = x + s g + e,   B = k + 2 m g + n g^2,   g = gamma - gamma_0
 /// ```
-/// x = a . d, gamma = b . d ([`FlankProjection`]). About the load, force, tilting moment and all stiffness of the two are
-/// those of the contact at every phase; where flanks part, both go to 0 together. A spring along one line of action has no
-/// moment of its own: shafts then tilt otherwise, and the transmission error is off by tens of per cents.
+/// x = a . d, gamma = b . d ([`FlankProjection`]). Near the load, force, tilting moment and all stiffnesses of the two
+/// equal those of the contact at every phase. If the flanks separate, force and moment become 0 together. A spring
+/// along one line of action has no tilting moment of its own; shafts then tilt differently, and the transmission error
+/// is wrong by tens of per cent.
 #[derive(Debug, Clone)]
 pub struct TiltingSpring {
     projection: FlankProjection,
@@ -89,7 +91,7 @@ impl TiltingSpring {
         Self { projection, coefficients, coast, damping: 0.0, cycles: 0.0, at: Place::default() }
     }
 
-    /// Mesh with a damper along the normal, N s/mm, limited to the force of the flanks.
+    /// Mesh with a damper along the normal, N s/mm, limited by the force of the flanks.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
         Self { damping, coast: self.coast.with_damping(damping), ..self }

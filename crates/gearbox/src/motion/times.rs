@@ -19,38 +19,39 @@ const NOTHING: f64 = 1e-6;
 /// Divides a motion into cycles of its fastest mesh, and these into steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionTimes {
-    /// Method.
+    /// Integration method.
     pub scheme: Scheme,
     /// Steps of a cycle, and which of them are rows.
     pub steps: CycleSteps,
-    /// Local error of a step over the coordinates' scales; `None`: steps are turns of the input that are alike.
+    /// Tolerance for the local error of a step, relative to the scales of the coordinates; `None`: steps at equal
+    /// rotations of the input.
     pub tolerance: Option<f64>,
-    /// Ends a step wherever contact is lost or gained.
+    /// Whether a step ends wherever contact is lost or gained.
     pub stop_at_events: bool,
-    /// Size of each coordinate, mm and rad: what errors are relative to.
+    /// Magnitude of each coordinate, mm and rad, to which errors are relative.
     pub scale: DVector<f64>,
 }
 
 /// Steps of a cycle, and which of them are rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CycleSteps {
-    /// As many in every cycle.
+    /// The same number in every cycle.
     Counted {
-        /// Steps, >= 1.
+        /// Steps per cycle, >= 1.
         per_cycle: u64,
-        /// Steps a row, >= 1, counted from the start of the motion.
+        /// Steps per row, >= 1, counted from the start of the motion.
         per_row: u64,
-        /// A further step with a row, likewise: the last of the motion.
+        /// A further step with a row, counted in the same way: the last step of the motion.
         last: Option<u64>,
     },
-    /// As many as show what is fast.
+    /// As many as fast vibrations need.
     Showing {
-        /// Rows in a cycle, and least number of steps, >= 1.
+        /// Number of rows in a cycle, and least number of steps, >= 1.
         rows: u64,
-        /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0:
-        /// rows are the steps.
+        /// Least number of steps in a period of the mesh resonance. If a row is longer, steps are inserted. 0: rows are
+        /// the steps.
         per_period: u64,
-        /// The mesh resonance, Hz.
+        /// Frequency of the mesh resonance, Hz.
         hz: f64,
     },
 }
@@ -71,7 +72,7 @@ impl CycleSteps {
 }
 
 impl MotionTimes {
-    /// Length of the steps in a cycle of `duration` (s), s; the longest one with an error tolerance.
+    /// Length of the steps in a cycle of `duration` (s), s; with an error tolerance it is the longest step.
     pub fn step(&self, duration: f64) -> f64 {
         duration / self.steps.of(duration)[0] as f64
     }

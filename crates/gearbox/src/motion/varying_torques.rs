@@ -1,4 +1,4 @@
-//! Torques of outputs and of the input that change with time, and the work that outputs do. Theory (93).
+//! Torques of outputs and of the input that change with time, and the work of the outputs. Theory (93).
 
 use dynamics::Torque;
 use nalgebra::DVector;
@@ -37,50 +37,51 @@ pub(super) struct VaryingTorques {
     done: TorqueMemory,
 }
 
-/// Work of torques that change with time, and where their discs stood last.
+/// Work of torques that change with time, and the last angles of their discs.
 ///
 /// ```text
 /// W += sum over j of T_j(t + h/2) (theta_j(t + h) - theta_j(t))
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TorqueMemory {
-    /// W, N mm.
+    /// Work W, N mm.
     pub work: f64,
-    /// Time of the last step's end, s.
+    /// Time at the end of the last step, s.
     pub time: f64,
-    /// Angles of the discs there, rad about +z.
+    /// Angles of the discs at that time, rad about +z.
     pub angles: Vec<f64>,
 }
 
 impl VaryingTorques {
-    /// The same with other torques of outputs.
+    /// The same with other output torques.
     pub fn with_outputs(self, all: Vec<VaryingTorque>) -> Self {
         Self { all, ..self }
     }
 
-    /// The same with a torque over time on the input, N mm about +z; `along`: what a unit of it does to the coordinates z.
+    /// The same with a torque over time on the input, N mm about +z; `along` is the effect of a unit torque on the
+    /// coordinates z.
     pub fn with_input(self, law: Torque, along: DVector<f64>) -> Self {
         Self { input: Some((law, along)), ..self }
     }
 
-    /// Gives a torque of the outputs another law.
+    /// Sets another law for an output torque.
     pub fn set_output(&mut self, i: usize, law: Torque) {
         if let Some(own) = self.all.get_mut(i) {
             own.law = law;
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no such torques.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty() && self.input.is_none()
     }
 
-    /// Torque of an output at a time, N mm about +z, by its number among these.
+    /// Output torque at a time, N mm about +z, by its index among these torques.
     pub fn output(&self, i: usize, t: f64) -> f64 {
         self.all.get(i).map_or(0.0, |own| own.law.at(t))
     }
 
-    /// Torque on the input at a time, N mm about +z, where it has a law.
+    /// Torque on the input at a time, N mm about +z, if it has a law.
     pub fn input(&self, t: f64) -> Option<f64> {
         self.input.as_ref().map(|(law, _)| law.at(t))
     }
@@ -91,7 +92,7 @@ impl VaryingTorques {
         of_outputs.chain(self.input.as_ref().map(move |(law, along)| (law.at(t), along)))
     }
 
-    /// Torque (N mm about +z) on the input that balances them at a time.
+    /// Torque (N mm about +z) on the input that balances these torques at a time.
     pub fn balance(&self, t: f64) -> f64 {
         self.all.iter().map(|own| -own.ratio * own.law.at(t)).sum()
     }
@@ -105,12 +106,12 @@ impl VaryingTorques {
         self.all.iter().map(|own| own.angle(input, q)).collect()
     }
 
-    /// A motion begins at a time, with the input at an angle.
+    /// Begins a motion at a time, with the input at an angle.
     pub fn begin(&mut self, time: f64, input: f64, q: &DVector<f64>) {
         self.done = TorqueMemory { work: 0.0, time, angles: self.angles(input, q) };
     }
 
-    /// A step has ended at a time, with the input at an angle.
+    /// Ends a step at a time, with the input at an angle.
     pub fn accept(&mut self, time: f64, input: f64, q: &DVector<f64>) {
         if self.all.is_empty() {
             return;
@@ -135,12 +136,12 @@ impl VaryingTorques {
         self.done.work
     }
 
-    /// What a checkpoint holds of them.
+    /// State for a checkpoint.
     pub fn memory(&self) -> TorqueMemory {
         self.done.clone()
     }
 
-    /// Goes on from a checkpoint.
+    /// Continues from a checkpoint.
     pub fn restore(&mut self, memory: &TorqueMemory) {
         self.done = memory.clone();
     }

@@ -42,7 +42,7 @@ struct Ball {
 }
 
 impl BallRow {
-    /// `clearance` is the whole radial play, `axial` the way until it touches, mm.
+    /// `clearance` is the total radial play, `axial` the axial distance until contact, mm.
     pub fn new(geometry: BallGeometry, row: Row, clearance: f64, axial: f64) -> Result<Self, RollingBearingError> {
         geometry.check()?;
         let most = 2.0 * geometry.groove_distance();
@@ -60,16 +60,17 @@ impl BallRow {
         Ok(Self { geometry, row, contacts, stiffness, gap: [0.5 * clearance, axial] })
     }
 
-    /// Adds what it does at displacements of the inner ring.
+    /// Adds its energy, force and stiffness at displacements of the inner ring.
     ///
     /// ```text
     /// v = A n_0 - gaps + N (u + theta x r),   delta = |v+| - A,   n = v+/|v+|
     /// Q = c delta^(3/2),   V = (2/5) c delta^(5/2)
     /// d2V/dv2 = (3/2) c delta^(1/2) n n' + Q/|v+| (1 - n n')
     /// ```
-    /// r: centre of curvature of the inner groove; N: onto the radial plane of the ball, radial and axial, for it rolls
-    /// along the groove freely. v+: v without what is below 0: where the inner ring has left the ball, and behind the
-    /// bottom of an angular contact groove, which has no shoulder there. |v+| is convex in (u, theta), and so is V.
+    /// r is the centre of curvature of the inner groove. N projects onto the radial plane of the ball (radial and
+    /// axial), because the ball rolls freely along the groove. v+ is v without negative components: the inner ring has
+    /// left the ball, or the ball is behind the bottom of an angular contact groove, which has no shoulder there. |v+|
+    /// is convex in (u, theta), and so is V.
     pub fn add(&self, d: &Vector5<f64>, reply: &mut RollingReply) {
         let grooves = self.grooves();
         for j in 0..self.geometry.elements {
@@ -125,7 +126,7 @@ impl BallRow {
         Ball { moves, v, sides, approach, force }
     }
 
-    /// Stiffness with every ball pressed by a force (N), at a contact angle of no less than `least` either way.
+    /// Stiffness with every ball loaded by a force (N), at a contact angle of at least `least` in either direction.
     pub fn pressed(&self, force: f64, least: f64, reply: &mut RollingReply) {
         let g = &self.geometry;
         let each = 1.5 * self.stiffness.powf(2.0 / 3.0) * force.cbrt();

@@ -1,4 +1,4 @@
-//! Rolling elements estimated from what a catalogue says. Theory (100).
+//! Rolling elements estimated from catalogue data. Theory (100).
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,16 +13,16 @@ pub struct Catalogue {
     pub outer_diameter: f64,
     /// C_0 of the whole bearing: its basic static radial load rating, N.
     pub static_rating: f64,
-    /// Rows that share it.
+    /// Number of rows that share it.
     pub rows: usize,
 }
 
-/// Filling: how rolling elements come between the rings.
+/// Filling: how rolling elements are inserted between the rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filling {
-    /// Rings moved against each other until they touch, as deep groove bearings are filled: balls on 190 degrees.
+    /// The rings are displaced until they touch, as for deep groove bearings: balls on 190 degrees.
     Eccentric,
-    /// All around, with a cage.
+    /// Elements around the whole circumference, with a cage.
     Around,
 }
 
@@ -64,10 +64,11 @@ impl Catalogue {
     /// C_0 = i Z Q cos(alpha)/5,   Q: force of a ball at 4200 MPa on either ring,   d_pw = (d + D)/2
     /// Z = 1 + 190 deg/(2 asin(D_w/d_pw)) filled eccentrically,   Z = pi d_pw/(1.15 D_w) around
     /// ```
-    /// The first is ISO 76, f_0 Z D_w^2 cos(alpha), by its own definition: the table of f_0 comes out of it.
+    /// The first equation is ISO 76, f_0 Z D_w^2 cos(alpha), by its own definition, from which the table of f_0
+    /// follows.
     ///
     /// # Errors
-    /// [`RollingBearingError`] where no balls do.
+    /// [`RollingBearingError`] if no balls give this rating.
     pub fn balls(
         &self,
         filling: Filling,
@@ -106,11 +107,11 @@ impl Catalogue {
     /// ```text
     /// C_0 = 44 (1 - gamma) i Z L D cos(alpha),   D = 0.55 h, Z = pi d_pw/(1.25 D) cylindrical,   0.47 h, 1.15 tapered
     /// ```
-    /// h: half of outer diameter less bore. Source of the first: ISO 76; the shares of h and of the pitch are those of
-    /// usual series (2 and 3 of NU, 302, 320), to some 10 %.
+    /// h is half of outer diameter minus bore. Source of the first equation: ISO 76. The shares of h and of the pitch
+    /// are those of usual series (2 and 3 of NU, 302, 320), to about 10 %.
     ///
     /// # Errors
-    /// [`RollingBearingError`] where no rollers do.
+    /// [`RollingBearingError`] if no rollers give this rating.
     pub fn rollers(&self, contact_angle: f64, profile: RollerProfile) -> Result<RollerGeometry, RollingBearingError> {
         self.check()?;
         let pitch_diameter = self.pitch_diameter();

@@ -1,4 +1,4 @@
-//! Rolling elements estimated from boundary dimensions alone. Theory (100a).
+//! Rolling elements estimated from boundary dimensions only. Theory (100a).
 
 use std::f64::consts::PI;
 
@@ -14,14 +14,14 @@ const BALLS: f64 = 0.3;
 const CYLINDER_LENGTH: f64 = 0.57;
 const CONE_LENGTH: f64 = 0.58;
 
-/// Boundary dimensions of a bearing of one row, as ISO 15 and ISO 355 have them.
+/// Boundary dimensions of a single-row bearing, as in ISO 15 and ISO 355.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryDimensions {
     /// Bore, mm.
     pub bore: f64,
     /// Outer diameter, mm.
     pub outer_diameter: f64,
-    /// Width, mm; of tapered rollers that of both rings together.
+    /// Width, mm; for tapered rollers the width of both rings together.
     pub width: f64,
 }
 
@@ -30,13 +30,13 @@ impl BoundaryDimensions {
         0.5 * (self.bore + self.outer_diameter)
     }
 
-    /// Balls of the usual size: D_w = 0.3 (D - d), as many as the filling lets in.
+    /// Balls of the usual size, D_w = 0.3 (D - d), as many as the filling permits.
     ///
     /// Ratings are within a fifth of catalogue values (`boundary_dimensions_lead_to_ratings_of_catalogues`). Catalogues have
     /// no stiffness to compare with.
     ///
     /// # Errors
-    /// [`RollingBearingError`] where no such balls go between the rings.
+    /// [`RollingBearingError`] if no such balls fit between the rings.
     pub fn balls(
         &self,
         filling: Filling,
@@ -56,11 +56,12 @@ impl BoundaryDimensions {
     /// ```text
     /// D_w = 0.55 h, L = 0.57 B, Z = pi d_pw/(1.25 D_w) cylindrical,   0.47 h, 0.58 T, 1.15 tapered,   h = (D - d)/2
     /// ```
-    /// Ratings of tapered rollers are within a fifth of catalogue values, of cylindrical ones up to 27 % below them: their
-    /// reinforced designs hold more and longer rollers. Catalogues have no stiffness to compare with.
+    /// Ratings of tapered rollers are within a fifth of catalogue values. Those of cylindrical rollers are up to 27 %
+    /// below them, because reinforced designs have more and longer rollers. Catalogues have no stiffness to compare
+    /// with.
     ///
     /// # Errors
-    /// [`RollingBearingError`] where no such rollers go between the rings.
+    /// [`RollingBearingError`] if no such rollers fit between the rings.
     pub fn rollers(&self, contact_angle: f64, profile: RollerProfile) -> Result<RollerGeometry, RollingBearingError> {
         let pitch_diameter = self.pitch_diameter();
         let [share, pitch, length] = if contact_angle > 0.0 {

@@ -1,10 +1,10 @@
 //! Errors of rolling bearings.
 
-/// Why no bearing can be made of what is stated.
+/// Reasons for which no bearing can be made from the given data.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RollingBearingError {
-    /// A value that no bearing has.
+    /// A value outside its range.
     #[error("{quantity} = {value} is not {wanted}")]
     OutOfRange {
         /// The quantity, with its unit.
@@ -14,30 +14,30 @@ pub enum RollingBearingError {
         /// The permitted range.
         wanted: &'static str,
     },
-    /// More rolling elements than there is room for.
+    /// More rolling elements than fit on the pitch circle.
     #[error("{elements} rolling elements of {diameter_mm} mm do not fit on a pitch circle of {pitch_diameter_mm} mm")]
     Crowded {
-        /// Elements a row.
+        /// Number of elements per row.
         elements: usize,
-        /// Their diameter, mm.
+        /// Diameter of the elements, mm.
         diameter_mm: f64,
-        /// Diameter of the circle of their centres, mm.
+        /// Pitch diameter of the elements, mm.
         pitch_diameter_mm: f64,
     },
-    /// Balls between which rings pass through each other.
+    /// A clearance at which the rings pass through each other between the balls.
     #[error(
         "a radial clearance of {clearance_um} um is more than the grooves are deep for: {most_um:.0} um at the most"
     )]
     Clearance {
-        /// Stated clearance, um.
+        /// Given clearance, um.
         clearance_um: f64,
         /// Twice the distance of the centres of curvature of both grooves, um.
         most_um: f64,
     },
-    /// A load rating that no such bearing has.
+    /// A load rating that no bearing of these dimensions has.
     #[error("a static load rating of {rating_n:.0} N fits no bearing of this size: {least_n:.0} N to {most_n:.0} N do")]
     Rating {
-        /// Stated static load rating, N.
+        /// Given static load rating, N.
         rating_n: f64,
         /// Static load rating with the smallest elements, N.
         least_n: f64,

@@ -1,4 +1,4 @@
-//! How much power does a rolling bearing lose? Theory (101d).
+//! Power loss of a rolling bearing. Theory (101d).
 
 use super::RollingElements;
 
@@ -15,17 +15,18 @@ fn axial_factor(angle: f64) -> f64 {
     AXIAL[below] + (place - below as f64) * (AXIAL[below + 1] - AXIAL[below])
 }
 
-/// Moment of friction of a rolling bearing in an oil bath, N mm.
+/// Friction moment of a rolling bearing in an oil bath, N mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingFriction {
-    /// Friction moment by the load.
+    /// Load-dependent friction moment.
     pub by_load: f64,
-    /// Friction moment by the oil.
+    /// Oil-dependent friction moment.
     pub by_oil: f64,
 }
 
 impl RollingFriction {
-    /// Friction of a bearing of so many rows under a radial and an axial force (N), at a speed (1/min) with oil of a kinematic viscosity (mm^2/s).
+    /// Friction of a bearing with a number of rows under a radial and an axial force (N), at a speed (1/min) with oil
+    /// of a kinematic viscosity (mm^2/s).
     ///
     /// ```text
     /// M_0 = 1e-7 f_0 (nu n)^(2/3) d_pw^3,   160e-7 f_0 d_pw^3 below nu n = 2000;   M_1 = f_1 F_b d_pw
@@ -34,7 +35,8 @@ impl RollingFriction {
     /// cylindrical:      f_0 = 3,    f_1 = 0.0003,   F_b = F_r
     /// tapered:          f_0 = 6,    f_1 = 0.0004,   F_b = max(0.8 F_a cot a, F_r)
     /// ```
-    /// Source: A. Palmgren; T. A. Harris, M. N. Kotzalas, Rolling Bearing Analysis, friction of bearings, oil bath; seals, churning and cages beyond that are not in it.
+    /// Source: A. Palmgren; T. A. Harris, M. N. Kotzalas, Rolling Bearing Analysis, friction of bearings, oil bath.
+    /// Seals, and further losses of churning and cages, are not included.
     pub fn new(
         elements: &RollingElements,
         rows: usize,
@@ -63,7 +65,7 @@ impl RollingFriction {
         Self { by_load: load * force * pitch, by_oil: by_speed * oil * pitch.powi(3) }
     }
 
-    /// Power lost at a speed (1/min), W.
+    /// Power loss at a speed (1/min), W.
     pub fn power_w(&self, speed_rpm: f64) -> f64 {
         1e-3 * (self.by_load + self.by_oil) * speed_rpm * std::f64::consts::TAU / 60.0
     }

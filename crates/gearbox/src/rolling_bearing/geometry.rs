@@ -1,4 +1,4 @@
-//! Internal geometry of a rolling bearing, as drawings have it.
+//! Internal geometry of a rolling bearing, as on drawings.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,41 +7,41 @@ use super::{PointContact, RollingBearingError};
 /// Balls of a row and their grooves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BallGeometry {
-    /// Z, in one row.
+    /// Number of elements Z in one row.
     pub elements: usize,
-    /// D, mm.
+    /// Ball diameter D, mm.
     pub diameter: f64,
-    /// Diameter of the circle of the balls' centres, mm.
+    /// Pitch diameter of the balls, mm.
     pub pitch_diameter: f64,
-    /// Nominal contact angle, rad; 0 for deep grooves, whose angle the clearance and the load make.
+    /// Nominal contact angle, rad; 0 for deep grooves, in which clearance and load determine the angle.
     pub contact_angle: f64,
-    /// Radius of the groove over D: inner ring, outer ring.
+    /// Groove radius divided by D: inner ring, outer ring.
     pub conformity: [f64; 2],
 }
 
 /// Rollers of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollerGeometry {
-    /// Z, in one row.
+    /// Number of elements Z in one row.
     pub elements: usize,
-    /// D (of a tapered roller in its middle), mm.
+    /// Roller diameter D, mm; for a tapered roller at its middle.
     pub diameter: f64,
-    /// Length that presses, mm.
+    /// Effective length in contact, mm.
     pub length: f64,
-    /// Diameter of the circle of the rollers' centres, mm.
+    /// Pitch diameter of the rollers, mm.
     pub pitch_diameter: f64,
     /// Contact angle, rad; 0 for cylindrical rollers.
     pub contact_angle: f64,
-    /// Relief of the rollers to their ends.
+    /// Relief of the rollers towards their ends.
     pub profile: RollerProfile,
 }
 
 /// Relief of a roller towards its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RollerProfile {
-    /// The logarithmic one of ISO/TS 16281.
+    /// The logarithmic profile of ISO/TS 16281.
     Logarithmic,
-    /// None.
+    /// Straight rollers without relief.
     Straight,
 }
 
@@ -57,18 +57,19 @@ pub enum RollingElements {
 /// A row of rolling elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Middle of the row beside that of the bearing, mm along +z.
+    /// Axial position of the row relative to the middle of the bearing, mm along +z.
     pub position: f64,
-    /// Whether it takes a thrust of the shaft towards +z (+1) or -z (-1); without meaning at a contact angle of 0.
+    /// Direction of the shaft thrust that the row takes: +z (+1) or -z (-1); not used at a contact angle of 0.
     pub thrust: f64,
 }
 
-/// How the rings stand against each other along the axis before any load.
+/// Axial setting of the rings relative to each other without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AxialSetting {
-    /// Way of the shaft into the direction of the row's thrust until it touches, mm; below 0: pressed by as much.
+    /// Axial distance of the shaft, in the direction of the row's thrust, until contact, mm; negative: preloaded by
+    /// this distance.
     Clearance(f64),
-    /// Force with which each row is pressed, N.
+    /// Preload force of each row, N.
     Preload(f64),
 }
 
@@ -118,7 +119,7 @@ impl BallGeometry {
         self.diameter * self.contact_angle.cos() / self.pitch_diameter
     }
 
-    /// A = r_i + r_o - D: distance of the centres of curvature of both grooves, mm.
+    /// Distance A = r_i + r_o - D of the centres of curvature of both grooves, mm.
     pub fn groove_distance(&self) -> f64 {
         (self.conformity[0] + self.conformity[1] - 1.0) * self.diameter
     }
@@ -135,7 +136,7 @@ impl BallGeometry {
         rows as f64 * count * least * self.contact_angle.cos() / 5.0
     }
 
-    /// Contact with the inner and the outer ring; `None` where it is none at a point.
+    /// Contact with the inner and the outer ring; `None` if it is not a point contact.
     ///
     /// ```text
     /// across the groove: 2/D - 1/r
@@ -150,7 +151,8 @@ impl BallGeometry {
 }
 
 impl RollingElements {
-    /// C_0 of a bearing of so many rows: its basic static radial load rating after ISO 76, N; 0 of balls without a point of contact.
+    /// C_0 of a bearing with a number of rows: its basic static radial load rating after ISO 76, N; 0 for balls without
+    /// point contact.
     pub fn static_rating(&self, rows: usize) -> f64 {
         match self {
             Self::Balls(own) => own.static_rating(own.elements as f64, rows),
@@ -166,7 +168,7 @@ impl RollingElements {
         }
     }
 
-    /// Diameter of the circle of their centres, mm.
+    /// Pitch diameter of the rolling elements, mm.
     pub fn pitch_diameter(&self) -> f64 {
         match self {
             Self::Balls(own) => own.pitch_diameter,

@@ -4,14 +4,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::STEEL;
 
-/// Contact of two steel bodies at a point: how they approach under a force, and how hard they press.
+/// Point contact of two steel bodies: their approach and pressure under a force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointContact {
-    /// c of Q = c delta^(3/2), N/mm^1.5.
+    /// Constant c of Q = c delta^(3/2), N/mm^1.5.
     pub stiffness: f64,
-    /// Pressure in the middle of the ellipse at 1 N, MPa; it goes with the cube root of the force.
+    /// Pressure in the middle of the ellipse at 1 N, MPa; it grows with the cube root of the force.
     pub unit_pressure: f64,
-    /// Long over short semi-axis of the ellipse.
+    /// Ratio of the long to the short semi-axis of the ellipse.
     pub ellipse: f64,
 }
 
@@ -19,16 +19,16 @@ pub struct PointContact {
 const HALVINGS: usize = 120;
 
 impl PointContact {
-    /// Contact of two bodies with principal curvatures (1/mm, hollow ones below 0) in one plane and in the plane across
-    /// it.
+    /// Contact of two bodies with principal curvatures (1/mm, negative if concave) in one plane and in the
+    /// perpendicular plane.
     ///
     /// ```text
     /// F = |rho_a - rho_b|/(rho_a + rho_b) = [(k^2 + 1) E - 2 K]/[(k^2 - 1) E],   m = 1 - 1/k^2
     /// delta = K [(9/2) S/E]^(1/3) [Q/(pi k E')]^(2/3),   a = [6 k^2 E Q/(pi E' S)]^(1/3),   p = 3 Q k/(2 pi a^2)
     /// ```
-    /// rho_a, rho_b: sums of both bodies in the planes; S = rho_a + rho_b; E' = E_steel/(1 - nu^2); K(m), E(m):
-    /// complete elliptic integrals. Source: Hertz 1881 as Harris and Kotzalas, Rolling Bearing Analysis, chapter 6
-    /// have it. `None` where the bodies do not touch at a point.
+    /// rho_a and rho_b are the sums over both bodies in the two planes; S = rho_a + rho_b; E' = E_steel/(1 - nu^2);
+    /// K(m), E(m): complete elliptic integrals. Source: Hertz 1881, as in Harris and Kotzalas, Rolling Bearing
+    /// Analysis, chapter 6. `None` if the bodies do not touch at a point.
     pub fn new([along, across]: [[f64; 2]; 2]) -> Option<Self> {
         let (a, b): (f64, f64) = (along.iter().sum(), across.iter().sum());
         if !(a > 0.0 && b > 0.0 && a.is_finite() && b.is_finite()) {
@@ -45,12 +45,12 @@ impl PointContact {
         Some(Self { stiffness: approach.powf(-1.5), unit_pressure, ellipse: ratio })
     }
 
-    /// Pressure in the middle under a force, MPa.
+    /// Pressure in the middle of the ellipse under a force, MPa.
     pub fn pressure(&self, force: f64) -> f64 {
         self.unit_pressure * force.cbrt()
     }
 
-    /// Force (N) under which the pressure in the middle is `pressure` (MPa).
+    /// Force (N) under which the pressure in the middle of the ellipse is `pressure` (MPa).
     pub fn force(&self, pressure: f64) -> f64 {
         (pressure / self.unit_pressure).powi(3)
     }

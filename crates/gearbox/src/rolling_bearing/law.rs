@@ -1,4 +1,4 @@
-//! All rows of a bearing as one law: forces are the gradient of a convex energy. Theory (97) to (100).
+//! All rows of a bearing as one law; forces are the gradient of a convex energy. Theory (97) to (100).
 
 use nalgebra::{Matrix6, Vector5};
 
@@ -33,7 +33,7 @@ impl LoadedRow {
     }
 }
 
-/// A rolling bearing whose stiffness follows its load.
+/// A rolling bearing whose stiffness depends on its load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RollingBearing {
     elements: RollingElements,
@@ -48,11 +48,11 @@ const HALVINGS: usize = 100;
 const DOUBLINGS: usize = 60;
 
 impl RollingBearing {
-    /// Bearing of rolling elements, rows, radial clearance (the whole play, mm; below 0: pressed), and the axial seat
-    /// of the rings.
+    /// Bearing with given rolling elements, rows, radial clearance (total play, mm; negative: interference), and axial
+    /// setting of the rings.
     ///
     /// # Errors
-    /// [`RollingBearingError`] for values that no bearing has.
+    /// [`RollingBearingError`] for values out of range.
     pub fn new(
         elements: RollingElements,
         rows: &[Row],
@@ -84,7 +84,7 @@ impl RollingBearing {
         Ok(Self { elements, rows, seat: AxialSeat::Held })
     }
 
-    /// Bearing in another axial seat.
+    /// The bearing with another axial seat.
     #[must_use]
     pub fn in_seat(self, seat: AxialSeat) -> Self {
         Self { seat, ..self }
@@ -95,7 +95,7 @@ impl RollingBearing {
         &self.elements
     }
 
-    /// Rolling elements of all rows.
+    /// Number of rolling elements of all rows.
     pub fn count(&self) -> usize {
         let a_row = match &self.elements {
             RollingElements::Balls(own) => own.elements,
@@ -104,7 +104,7 @@ impl RollingBearing {
         a_row * self.rows.len()
     }
 
-    /// Force and tangent at displacements of the inner ring against the seat of the outer one.
+    /// Force and tangent at displacements of the inner ring relative to the seat of the outer ring.
     pub fn evaluate(&self, displacements: &Vector5<f64>) -> RollingReply {
         self.settled(displacements).1
     }
@@ -118,7 +118,9 @@ impl RollingBearing {
         })
     }
 
-    /// Share of the basic reference rating life that a million turns of the inner ring under a load that stands still take, at displacements of the inner ring against the seat of the outer one: 1/L_10r, 0 without load. `dynamic_rating`: C of the whole bearing, N, ISO 281.
+    /// Share of the basic reference rating life used by a million revolutions of the inner ring under a stationary
+    /// load, at displacements of the inner ring relative to the seat of the outer ring: 1/L_10r, 0 without load.
+    /// `dynamic_rating` is C of the whole bearing, N, ISO 281.
     ///
     /// ```text
     /// balls:   L_10r^(-10/9) = sum over the rows of (Q_ei/Q_ci)^(10/3) + (Q_ee/Q_ce)^(10/3)

@@ -1,6 +1,7 @@
-//! How long does a rolling bearing last? Theory (101b), (101c).
+//! Life of a rolling bearing. Theory (101b), (101c).
 //!
-//! From the force of every rolling element and lamina, not from an equivalent load: tilts, clearance and preload count.
+//! The life follows from the force of every rolling element and lamina, not from an equivalent load. So tilts,
+//! clearance and preload are included.
 
 use super::{BallGeometry, RollerGeometry, RollingElements, roller::LAMINAE};
 
@@ -83,19 +84,20 @@ impl LaminaCapacity {
     }
 }
 
-/// What oil and dirt make of the life of a bearing.
+/// Effect of lubrication and contamination on the life of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LifeModification {
-    /// kappa = nu/nu_1: viscosity over the one that is needed.
+    /// Viscosity ratio kappa = nu/nu_1: viscosity divided by the required viscosity.
     pub viscosity_ratio: f64,
-    /// C_u: load below which the raceways do not tire under the best conditions, N.
+    /// Fatigue load limit C_u: the load below which the raceways do not fatigue under the best conditions, N.
     pub fatigue_limit: f64,
-    /// a_ISO, by which the basic life is multiplied, up to 50.
+    /// Life modification factor a_ISO, by which the basic life is multiplied, up to 50.
     pub factor: f64,
 }
 
 impl LifeModification {
-    /// Modification for a bearing of so many rows, at a speed (1/min, above 0), with oil of a kinematic viscosity (mm^2/s), a contamination factor e_C, under an equivalent load P (N).
+    /// Modification for a bearing with a number of rows, at a speed (1/min, above 0), with oil of a kinematic viscosity
+    /// (mm^2/s), a contamination factor e_C, under an equivalent load P (N).
     ///
     /// ```text
     /// nu_1 = 45000 n^(-0.83) d_pw^(-0.5) below 1000/min,   4500 n^(-0.5) d_pw^(-0.5) from there on
@@ -103,7 +105,8 @@ impl LifeModification {
     /// a_ISO = 0.1 (1 - (2.5671 - a kappa^-b)^0.83 (e_C C_u/P)^(1/3))^(-9.3)         balls
     /// a_ISO = 0.1 (1 - (1.5859 - a kappa^-b) (e_C C_u/P)^0.4)^(-9.185)              rollers
     /// ```
-    /// a, b by the range of kappa, 0.1 .. 4; above 4 it is 4. `None` below 0.1, where ISO 281 has no factor, and for values that are not above 0. Source: ISO 281:2007.
+    /// a and b depend on the range of kappa, 0.1 .. 4; above 4 it counts as 4. `None` below 0.1, where ISO 281 has no
+    /// factor, and for values that are not above 0. Source: ISO 281:2007.
     pub fn new(
         elements: &RollingElements,
         rows: usize,

@@ -1,4 +1,4 @@
-//! How hard does a rolling bearing press back, and how stiff is it? Theory (97) to (101).
+//! Force and stiffness of a rolling bearing. Theory (97) to (101).
 //!
 //! | module | what it does |
 //! |---|---|
@@ -14,7 +14,7 @@
 //! | `state` | what is told of it, and the linear bearing that stands for it |
 //! | `error` | what is refused |
 //!
-//! After ISO/TS 16281: rigid rings, steel, no friction, no centrifugal forces, no cage; contacts have no edges.
+//! Model of ISO/TS 16281: rigid rings, steel, no friction, no centrifugal forces, no cage; contacts have no edges.
 
 mod ball;
 mod catalogue;

@@ -1,4 +1,4 @@
-//! Load ratings of a rolling bearing: C of ISO 281, and how far a load is from C_0 of ISO 76. Theory (100b), (100c).
+//! Load ratings of a rolling bearing: C of ISO 281, and the static safety against C_0 of ISO 76. Theory (100b), (100c).
 
 use super::{BallGeometry, RollerGeometry, RollingElements};
 
@@ -53,7 +53,7 @@ impl RollerGeometry {
 }
 
 impl RollingElements {
-    /// C of a bearing of so many rows: its basic dynamic radial load rating after ISO 281, N.
+    /// C of a bearing with a number of rows: its basic dynamic radial load rating after ISO 281, N.
     pub fn dynamic_rating(&self, rows: usize) -> f64 {
         match self {
             Self::Balls(own) => own.dynamic_rating(rows),
@@ -61,7 +61,8 @@ impl RollingElements {
         }
     }
 
-    /// Pressure of the static rating: what leaves a dent of a ten-thousandth of the element's diameter (ISO 76), MPa.
+    /// Pressure of the static rating, MPa: it leaves a permanent indentation of a ten-thousandth of the element's
+    /// diameter (ISO 76).
     pub fn dent_pressure(&self) -> f64 {
         DENTS[usize::from(matches!(self, Self::Rollers(_)))]
     }
@@ -71,8 +72,8 @@ impl RollingElements {
     /// ```text
     /// S_0 = (4200 MPa/p)^3 balls,   (4000 MPa/p)^2 rollers
     /// ```
-    /// P_0 is the load with that pressure, as ISO 76 defines it; the force of an element goes with p^3 at a point, with p^2
-    /// along a line. So tilts, thrust, clearance and preload count.
+    /// P_0 is the load with that pressure, as ISO 76 defines it. The force of an element grows with p^3 for point
+    /// contact and with p^2 for line contact. So tilts, thrust, clearance and preload are included.
     pub fn static_safety(&self, pressure: f64) -> Option<f64> {
         let power = if matches!(self, Self::Balls(_)) { 3 } else { 2 };
         (pressure > 0.0).then(|| (self.dent_pressure() / pressure).powi(power))

@@ -1,22 +1,22 @@
-//! Force, moment and tangent of a bearing at some displacements.
+//! Force, moment and tangent of a bearing at given displacements.
 
 use nalgebra::{Matrix5, Matrix6, Vector5, Vector6};
 
-/// What a bearing does at some displacements of its inner ring against the outer one: x, y, z (mm) and the turns about
-/// x and y (rad); it rolls about z without a moment.
+/// Reply of a bearing at displacements of its inner ring relative to the outer one: x, y, z (mm) and the rotations
+/// about x and y (rad). It rotates about z without a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingReply {
     /// Elastic energy, N mm.
     pub energy: f64,
-    /// Force (N) and moment about the bearing's middle (N mm) on the inner ring: -dV/dd.
+    /// Force (N) and moment about the bearing's middle (N mm) on the inner ring, -dV/dd.
     pub force: Vector5<f64>,
-    /// Tangent d2V/dd2, symmetric without negative eigenvalues: N/mm, N, N mm.
+    /// Tangent d2V/dd2, symmetric and positive semi-definite: N/mm, N, N mm.
     pub stiffness: Matrix5<f64>,
     /// Largest force of a rolling element, N.
     pub element_force: f64,
     /// Largest pressure of a contact, MPa.
     pub pressure: f64,
-    /// Rolling elements that carry, of all rows.
+    /// Number of loaded rolling elements of all rows.
     pub loaded: usize,
 }
 

@@ -1,4 +1,4 @@
-//! A row of rollers, cut into laminae. Theory (99).
+//! A row of rollers, divided into laminae. Theory (99).
 
 use std::f64::consts::{PI, TAU};
 
@@ -23,7 +23,7 @@ pub(super) struct RollerRow {
 }
 
 impl RollerRow {
-    /// `clearance` is the whole radial play, `axial` the way until it touches, mm.
+    /// `clearance` is the total radial play, `axial` the axial distance until contact, mm.
     ///
     /// ```text
     /// P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2))                                       L <= 2.5 D
@@ -39,7 +39,7 @@ impl RollerRow {
         Ok(Self { geometry, row, gaps, stiffness })
     }
 
-    /// Adds what it does at displacements of the inner ring.
+    /// Adds its energy, force and stiffness at displacements of the inner ring.
     ///
     /// ```text
     /// delta_k = n . (u + theta x r_k) - gap - 2 P(x_k),   q = c delta^(10/9),   V = (9/19) c delta^(19/9)
@@ -66,7 +66,7 @@ impl RollerRow {
         }
     }
 
-    /// Forces of lamina k of all rollers at displacements of the inner ring, N; k below [`LAMINAE`].
+    /// Forces of lamina k of all rollers at displacements of the inner ring, N; k is below [`LAMINAE`].
     pub fn forces(&self, k: usize, d: &Vector5<f64>) -> impl Iterator<Item = f64> {
         let of = move |j| self.stiffness * self.approach(j, k, d).1.max(0.0).powf(10.0 / 9.0);
         (0..self.geometry.elements).map(of)
@@ -78,7 +78,7 @@ impl RollerRow {
         (lever, lever.dot(d) - self.gaps[k])
     }
 
-    /// Stiffness with every roller pressed evenly by a force, N.
+    /// Stiffness with every roller evenly loaded by a force, N.
     pub fn pressed(&self, force: f64, reply: &mut RollingReply) {
         let each = 10.0 / 9.0 * self.stiffness.powf(0.9) * (force / LAMINAE as f64).powf(0.1);
         for (j, k) in (0..self.geometry.elements).flat_map(|j| (0..LAMINAE).map(move |k| (j, k))) {

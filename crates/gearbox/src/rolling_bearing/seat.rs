@@ -1,4 +1,4 @@
-//! Which thrust of the shaft the seat of a bearing takes: a ring that floats finds its place along the axis.
+//! Shaft thrust that the seat of a bearing takes. A floating ring adjusts its axial position freely.
 //!
 //! ```text
 //! V*(d) = min over w of V(d - w e_z)      w free, or on one side of 0 alone
@@ -9,15 +9,15 @@ use nalgebra::{Matrix5, Vector5};
 
 use super::RollingReply;
 
-/// Thrust of the shaft that the seat of the outer ring takes.
+/// Direction of shaft thrust that the seat of the outer ring takes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum AxialSeat {
-    /// The ring is held along the axis, in both directions.
+    /// Both directions: the ring is fixed axially.
     #[default]
     Held,
-    /// None: the ring floats.
+    /// None: the ring floats axially.
     Floating,
-    /// Towards +z (+1) or -z (-1) alone: the ring has a shoulder there.
+    /// Only towards +z (+1) or -z (-1): the ring has a shoulder on that side.
     Shoulder(f64),
 }
 

@@ -1,13 +1,13 @@
-//! What is told of a rolling bearing under load, and the linear one that stands for it. Theory (101).
+//! Results of a rolling bearing under load, and the linear bearing that replaces it. Theory (101).
 
 use nalgebra::{Matrix6, Vector6};
 
 use super::RollingReply;
 
-/// A rolling bearing at a position.
+/// State of a rolling bearing at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingState {
-    /// Displacement of the shaft against the seat, mm and rad; the turn about z counts for nothing.
+    /// Displacement of the shaft relative to the seat, mm and rad; the rotation about z has no effect.
     pub displacement: Vector6<f64>,
     /// Force and moment on the shaft: N, N mm.
     pub force: Vector6<f64>,
@@ -19,7 +19,7 @@ pub struct RollingState {
     pub element_force: f64,
     /// Largest Hertz pressure, MPa.
     pub pressure: f64,
-    /// Rolling elements that carry.
+    /// Number of loaded rolling elements.
     pub loaded: usize,
 }
 
@@ -68,7 +68,7 @@ pub(crate) struct Tangent {
 }
 
 impl Tangent {
-    /// About the mean of some states, with the mean of their tangents; `None` without any.
+    /// Mean of several states, with the mean of their tangents; `None` for an empty list.
     pub fn about(states: &[RollingState]) -> Option<Self> {
         let count = states.len();
         if count == 0 {

@@ -1,4 +1,4 @@
-//! What a mesh is on average through its cycle, and what it does beside that. Theory (86), (87).
+//! Mean of a mesh over its cycle, and its deviation from the mean. Theory (86), (87).
 
 use std::f64::consts::TAU;
 
@@ -8,16 +8,16 @@ use crate::{
     GearMesh, GearboxError, MeshElement, MeshForces, Meshing, ModalForces, Vector12, even_mesh::guessed_lever,
 };
 
-/// A mesh at one place of its cycle, in its own axes.
+/// A mesh at one position of its cycle, in its own axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshSample {
     /// Mesh cycles ([`crate::Train::cycles`]).
     pub cycles: f64,
     /// Displacements of both gears, mm and rad.
     pub displacements: Vector12,
-    /// Forces there, and their tangent.
+    /// Forces at this position, and their tangent.
     pub reply: MeshForces,
-    /// The same with elastic modes of the gears as coordinates, where the mesh keeps some.
+    /// The same with elastic modes of the gears as coordinates, if the mesh keeps modes.
     pub modal: Option<ModalForces>,
 }
 
@@ -41,21 +41,21 @@ impl MeshSample {
     }
 }
 
-/// A mesh that is linear about its mean: f = f_0 + T (q - q_0), at any phase.
+/// A mesh linearised about its mean, for all phases: f = f_0 + T (q - q_0).
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanMesh {
-    /// q_0, mm and rad.
+    /// Mean displacements q_0, mm and rad.
     pub displacements: Vector12,
-    /// f_0, N and N mm.
+    /// Mean forces f_0, N and N mm.
     pub force: Vector12,
-    /// T = df/dq, symmetric: N/mm, N, N mm.
+    /// Tangent T = df/dq, symmetric: N/mm, N, N mm.
     pub tangent: SMatrix<f64, 12, 12>,
     /// Mean of the sum of the normal forces, N.
     pub normal_force: f64,
 }
 
 impl MeanMesh {
-    /// Means of some samples; `None` without any.
+    /// Means of several samples; `None` for an empty list.
     pub fn of(samples: &[MeshSample]) -> Option<Self> {
         if samples.is_empty() {
             return None;
@@ -71,10 +71,11 @@ impl MeanMesh {
     }
 }
 
-/// Levers by which the turns of gear 1 and gear 2 press the flanks of a mesh, mm: those of its normal (theory (53)).
+/// Levers of the rotations of gear 1 and gear 2 on the normal approach of a mesh's flanks, mm: those of its normal
+/// (theory (53)).
 ///
 /// # Errors
-/// [`GearboxError::Mesh`] when the gears have no line of action.
+/// [`GearboxError::Mesh`] if the gears have no line of action.
 pub fn turn_levers(mesh: &GearMesh, meshing: &Meshing) -> Result<[f64; 2], GearboxError> {
     let lever = guessed_lever(mesh, meshing)?;
     Ok([lever[5], lever[11]])
@@ -114,32 +115,33 @@ impl MeshElement for MeanMesh {
     }
 }
 
-/// A mesh for vibration: its mean, and the force by which it differs from that order by order.
+/// A mesh for vibration: its mean, and the order components of the force by which it deviates from the mean.
 ///
 /// ```text
 /// f(c) = f_0 + T (q - q_0) + g(c),   g_k = 2/N sum_j (f_j - T q_j) exp(-2 pi i k c_j)
 /// ```
-/// q: twelve displacements, then the amplitudes of elastic modes where these are kept; c: mesh cycles; f_j, q_j, T_j: at rest under load; T: the mean of T_j. Where forces at rest do not change, as in any
-/// train without a ring, g is -T times the displacements of the loaded transmission error: mean mesh stiffness times
-/// the harmonics of the STE. What else is in it is the resultant that moves over the width as contact lines do. The
-/// linear answer at rest is the loaded gearbox at rest, exactly.
+/// q are twelve displacements, then the amplitudes of elastic modes if these are kept; c are mesh cycles; f_j, q_j, T_j
+/// the values in static equilibrium under load; T the mean of T_j. If the static forces do not change, as in any train
+/// without closed loops, g is -T times the displacements of the loaded transmission error: mean mesh stiffness times
+/// the harmonics of the STE. The rest of g is the resultant that moves over the width with the contact lines. The
+/// linear response at zero frequency equals the loaded static gearbox exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshExcitation {
-    /// The mean at rest: all elasticity of the gears is in it.
+    /// The static mean, which includes all elasticity of the gears.
     pub mean: MeanMesh,
-    /// T of the coordinates, symmetric, (12 + m) x (12 + m): N/mm, N, N mm, and mm t^(1/2) in place of mm for modes. It
-    /// does not resist a turn with the teeth.
+    /// Tangent T of the coordinates, symmetric, (12 + m) x (12 + m): N/mm, N, N mm, with mm t^(1/2) instead of mm for
+    /// modes. It does not resist a rotation with the teeth.
     pub tangent: DMatrix<f64>,
     /// g_1, g_2, ... (peak of a cosine over the cycles, forces on the coordinates in the mesh's own axes): N, N mm.
     pub orders: Vec<DVector<Complex<f64>>>,
-    /// Single-sided amplitudes of the loaded transmission error of the same orders, mm, where it is given.
+    /// Single-sided amplitudes of the same orders of the loaded transmission error, mm, if it is given.
     pub transmission_error: Vec<Complex<f64>>,
 }
 
 impl MeshExcitation {
-    /// Excitation of samples evenly spaced over one cycle, with the transmission error (mm) of each; orders 1 ..
-    /// `orders`, as far as the samples have them: below half of their number. `turns`: [`turn_levers`]; the mean does
-    /// not resist a turn with the teeth. `None` without samples.
+    /// Excitation from samples evenly spaced over one cycle, with the transmission error (mm) of each. Orders are 1 ..
+    /// `orders`, but below half the number of samples. `turns` are the [`turn_levers`]; the mean does not resist a
+    /// rotation with the teeth. `None` without samples.
     pub fn new(samples: &[MeshSample], transmission_error: &[f64], orders: usize, turns: [f64; 2]) -> Option<Self> {
         let mut mean = MeanMesh::of(samples)?;
         let rigid = turning_with_the_teeth(&DMatrix::from_column_slice(12, 12, mean.tangent.as_slice()), turns);

@@ -1,4 +1,4 @@
-//! Orders of all meshes over speed. Theory (90).
+//! Response to the orders of all meshes over speed. Theory (90).
 
 use std::{f64::consts::TAU, sync::Arc};
 
@@ -13,7 +13,7 @@ use crate::{
     even_mesh::{guessed_lever, turn},
 };
 
-/// A gearbox with mass that swings about its equilibrium, its meshes linear.
+/// Vibration of a gearbox with mass about its equilibrium, with linear meshes.
 #[derive(Debug, Clone)]
 pub struct Vibration {
     rotors: Rotors,
@@ -36,8 +36,8 @@ struct SwingingMesh {
     cycles: f64,
 }
 
-/// What one order of one mesh does at one speed; amplitudes are peaks of Re(x exp(i w t)), t = 0 where the input is at
-/// its start.
+/// Response to one order of one mesh at one speed. Amplitudes are peaks of Re(x exp(i w t)), with t = 0 when the input
+/// is at its start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Harmonic {
     /// Mesh that excites.
@@ -48,18 +48,19 @@ pub struct Harmonic {
     pub frequency: f64,
     /// Displacements of all coordinates of the [`Assembly`], mm and rad.
     pub displacements: DVector<Complex<f64>>,
-    /// Dynamic normal force of every mesh, N, by the torque on its gear 1; positive presses more.
+    /// Dynamic normal force of every mesh, N, from the torque on its gear 1; positive if it increases the contact
+    /// force.
     pub mesh_forces: Vec<Complex<f64>>,
-    /// Force and moment of each bearing on the housing, six a bearing: N, N mm. Springs alone.
+    /// Force and moment of each bearing on the housing, six entries per bearing: N, N mm. Only of springs.
     pub bearing_forces: DVector<Complex<f64>>,
 }
 
 impl Vibration {
-    /// Vibration of a structure with mass, its `meshes` with their train, and the excitation of each mesh, in their
-    /// order. The mesh springs of the structure are to be empty.
+    /// Vibration of a structure with mass, its `meshes` with their train, and the excitation of each mesh, in order.
+    /// The structure must have no mesh springs.
     ///
     /// # Errors
-    /// [`GearboxError`]: another number of excitations, or as [`Rotors::holding`].
+    /// [`GearboxError`]: another number of excitations, or the errors of [`Rotors::holding`].
     pub fn new(
         structure: Structure,
         parts: (&[GearMesh], &Train, Sense),
@@ -69,11 +70,12 @@ impl Vibration {
         Self::with_modes(structure, parts, excitations, &[], held)
     }
 
-    /// The same with elastic modes of gears, disc by disc ([`crate::elastic_gears`]); excitations have those of their gears
-    /// as coordinates.
+    /// The same with elastic modes of gears, disc by disc ([`crate::elastic_gears`]); the coordinates of the
+    /// excitations include the modes of their gears.
     ///
     /// # Errors
-    /// As [`Vibration::new`]; excitations of other coordinates, and gears whose mass is less than their modes move.
+    /// The errors of [`Vibration::new`]; excitations with other coordinates, and gears whose mass is less than that
+    /// moved by their modes.
     pub fn with_modes(
         structure: Structure,
         (meshes, train, sense): (&[GearMesh], &Train, Sense),
@@ -102,11 +104,11 @@ impl Vibration {
         Ok(Self { rotors, ratios, meshes: swinging })
     }
 
-    /// Vibration in modes up to `highest` (rad/s) and in what forces at gears and bearings need beyond, gyroscopic
-    /// moments of discs and elastic modes of gears among them ([`Rotors::reduced`]).
+    /// Vibration in modes up to `highest` (rad/s), plus the static response to forces at gears and bearings beyond
+    /// these modes, including gyroscopic moments of discs and elastic modes of gears ([`Rotors::reduced`]).
     ///
     /// # Errors
-    /// None that [`Vibration::new`] has let pass.
+    /// No errors other than those that [`Vibration::new`] has already checked.
     pub fn reduced(&self, highest: f64) -> Result<Self, GearboxError> {
         let assembly = self.rotors.assembly();
         let structure = assembly.structure();
@@ -137,12 +139,13 @@ impl Vibration {
         self.ratios.iter().map(|r| r * speed).collect()
     }
 
-    /// Mesh frequency over the turns of the input, of each mesh: its order, as the input counts.
+    /// Mesh frequency of each mesh divided by the rotation frequency of the input: the mesh order relative to the
+    /// input.
     pub fn mesh_orders(&self) -> Vec<f64> {
         self.meshes.iter().map(|m| m.cycles * TAU).collect()
     }
 
-    /// Mean stiffness of each mesh along its normal, N/mm: what turning gear 1 alone meets.
+    /// Mean stiffness of each mesh along its normal, N/mm, as felt by a rotation of gear 1 alone.
     ///
     /// ```text
     /// k = -T_66/h_6^2      h: lever of the normal, theory (53)
@@ -151,19 +154,19 @@ impl Vibration {
         self.meshes.iter().map(|m| -m.excitation.mean.tangent[(5, 5)] / (m.lever[5] * m.lever[5])).collect()
     }
 
-    /// What each mesh does.
+    /// Excitation of each mesh.
     pub fn excitations(&self) -> impl Iterator<Item = &MeshExcitation> {
         self.meshes.iter().map(|m| &m.excitation)
     }
 
-    /// All orders of all meshes with the input at `speed` (rad/s, above 0), mesh after mesh.
+    /// Response to all orders of all meshes with the input at `speed` (rad/s, above 0), mesh by mesh.
     ///
     /// ```text
     /// w = k dc/dt,   f = g_k exp(2 pi i k c(0)),   dynamic force = g_k exp(2 pi i k c(0)) + T x
     /// ```
     ///
     /// # Errors
-    /// As [`Rotors::response`].
+    /// The errors of [`Rotors::response`].
     pub fn harmonics(&self, speed: f64, damping_ratio: f64) -> Result<Vec<Harmonic>, GearboxError> {
         if !(speed.is_finite() && speed > 0.0) {
             let part = "the input".into();
@@ -256,8 +259,8 @@ fn turn_with_modes(
 /// Frequencies that are one, relative.
 const SAME: f64 = 1e-9;
 
-/// Root mean square of a sum of harmonics: pairs of frequency and complex amplitude (peak). Those of one frequency are
-/// added up before they are squared, as those of two meshes of an idler are.
+/// Root mean square of a sum of harmonics, given as pairs of frequency and complex amplitude (peak). Harmonics of the
+/// same frequency are added before they are squared, such as those of two meshes of an idler.
 ///
 /// ```text
 /// rms = sqrt(sum over frequencies |sum a|^2 / 2)
@@ -273,8 +276,9 @@ pub fn rms(harmonics: impl IntoIterator<Item = (f64, Complex<f64>)>) -> f64 {
 /// Places of a period at which orders are added up.
 const PLACES: usize = 128;
 
-/// How far a sum of harmonics falls below its mean: frequency, order and complex amplitude (peak) of each. Orders of one first
-/// frequency are added as they stand to each other, those of others as they meet at last.
+/// Largest decrease of a sum of harmonics below its mean, given frequency, order and complex amplitude (peak) of each.
+/// Orders of the same fundamental frequency are added with their phases; those of different ones are added as if they
+/// coincided at some time.
 pub fn taken_off(harmonics: impl IntoIterator<Item = (f64, usize, Complex<f64>)>) -> f64 {
     type Own = (f64, usize, Complex<f64>);
     let mut all: Vec<Own> = harmonics.into_iter().map(|(hz, order, a)| (hz / order as f64, order, a)).collect();

@@ -1,14 +1,13 @@
-//! A mesh through its own cycle, at rest under load.
+//! A mesh through its own cycle, in static equilibrium under load.
 
 use crate::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Vector12};
 
-/// Solves a gearbox at `positions` places that are evenly spaced over one cycle of `mesh`, and hands on that mesh at
-/// each of them with its transmission error (mm), and with what it does to the modes of its gears where its element keeps
-/// some. The other meshes are best linear then ([`crate::MeanMesh`]): their
-/// cycles are not whole.
+/// Solves a gearbox at `positions` positions that are evenly spaced over one cycle of `mesh`. For each it returns that
+/// mesh with its transmission error (mm), and its forces on the modes of its gears if its element keeps modes. The
+/// other meshes should then be linear ([`crate::MeanMesh`]), because their cycles are not complete.
 ///
 /// # Errors
-/// [`GearboxError`] as [`StaticGearbox::solve`]; [`GearboxError::Count`] without a mesh of that number.
+/// [`GearboxError`] as for [`StaticGearbox::solve`]; [`GearboxError::Count`] if there is no mesh with this index.
 pub fn own_cycle(
     gearbox: &mut StaticGearbox,
     mesh: usize,
@@ -35,7 +34,7 @@ pub fn own_cycle(
 }
 
 impl MeshSample {
-    /// A mesh at the position that a gearbox has solved last, without modes; `None` without a mesh of that number.
+    /// A mesh at the last solved position of a gearbox, without modes; `None` if there is no mesh with this index.
     pub fn at(gearbox: &StaticGearbox, position: &GearboxPosition, mesh: usize) -> Option<Self> {
         let (state, reply) = (position.meshes.get(mesh)?, gearbox.replies().get(mesh)?);
         let displacements = Vector12::from(state.displacements);

@@ -1,4 +1,4 @@
-//! Vibration of a gearbox about where it stands, in the frequency domain. Theory (86) to (90).
+//! Vibration of a gearbox about its equilibrium, in the frequency domain. Theory (86) to (90).
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What orders of meshes do at one speed, and the lines of excitation in a Campbell diagram. Theory (90).
+//! Forces of the mesh orders at one speed, and the excitation lines of a Campbell diagram. Theory (90).
 
 use std::f64::consts::TAU;
 
@@ -6,16 +6,17 @@ use nalgebra::Complex;
 
 use super::{Harmonic, Vibration, rms};
 
-/// What excites: a multiple of the input's speed.
+/// An excitation at a multiple of the input's speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExcitationLine {
-    /// Name, as columns have it.
+    /// Name, as used in column names.
     pub name: String,
-    /// Order, turns of the input.
+    /// Order: excitation frequency divided by the rotation frequency of the input.
     pub order: f64,
 }
 
-/// What one order of one mesh does at one speed; peaks of Re(x exp(i w t)), t = 0 where the input is at its start.
+/// Forces caused by one order of one mesh at one speed; peaks of Re(x exp(i w t)), with t = 0 when the input is at its
+/// start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrderForces {
     /// Mesh that excites.
@@ -30,17 +31,17 @@ pub struct OrderForces {
     pub bearing_forces: Vec<[Complex<f64>; 6]>,
 }
 
-/// Root mean squares of all orders of all meshes together.
+/// Root mean squares over all orders of all meshes together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedRms {
-    /// Of the dynamic normal force of every mesh, N.
+    /// Root mean square of the dynamic normal force of every mesh, N.
     pub mesh_forces: Vec<f64>,
-    /// Of the force of every bearing, x, y, z together, N.
+    /// Root mean square of the force of every bearing, x, y, z together, N.
     pub bearing_forces: Vec<f64>,
 }
 
 impl OrderForces {
-    /// Of a harmonic, without the displacements.
+    /// Forces of a harmonic, without the displacements.
     pub fn of(harmonic: &Harmonic) -> Self {
         let six = |i: usize| std::array::from_fn(|k| harmonic.bearing_forces[6 * i + k]);
         Self {
@@ -54,7 +55,7 @@ impl OrderForces {
 }
 
 impl SpeedRms {
-    /// Of all orders at one speed.
+    /// Root mean squares over all orders at one speed.
     pub fn of(orders: &[OrderForces]) -> Self {
         let (meshes, bearings) = orders.first().map_or((0, 0), |o| (o.mesh_forces.len(), o.bearing_forces.len()));
         let mesh = |i: usize| rms(orders.iter().map(|o| (o.frequency_hz, o.mesh_forces[i])));
@@ -67,8 +68,8 @@ impl SpeedRms {
 }
 
 impl Vibration {
-    /// Mesh orders and turns of shafts, of these spins over that of the input, as lines of excitation; what stands excites
-    /// nothing.
+    /// Mesh orders and shaft orders as excitation lines; `ratios` are the shaft speeds divided by that of the input.
+    /// Stationary shafts excite nothing.
     pub fn lines(&self, ratios: &[f64], orders: u32) -> Vec<ExcitationLine> {
         let meshes = self.mesh_orders().into_iter().enumerate().flat_map(move |(i, order)| {
             (1..=orders)

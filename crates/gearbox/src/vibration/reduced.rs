@@ -8,13 +8,14 @@ use crate::{GearboxError, Rotors};
 const APART: f64 = 1e-10;
 
 impl Rotors {
-    /// Rotors in modes up to `highest` (rad/s at rest), and beyond in those directions alone that `loads` (a column
-    /// each, all coordinates) bend at rest. Damping of the modes is that of all of them, projected.
+    /// Rotors in modes up to `highest` (rad/s without spin), plus the static shapes of `loads` (one column each, all
+    /// coordinates) beyond these modes. The damping is the projection of the damping of all modes.
     ///
     /// ```text
     /// q = Phi_low eta + R y,   R = Phi_high W_high^-2 Phi_high' F,   made diagonal in mass and stiffness
     /// ```
-    /// Answers at rest to these loads stay exact; at omega a high mode of W_r is missed by some (omega/W_r)^4.
+    /// Static responses to these loads stay exact. At omega the error from a neglected mode of frequency W_r is about
+    /// (omega/W_r)^4.
     ///
     /// # Errors
     /// [`GearboxError::Count`] for loads of another size.

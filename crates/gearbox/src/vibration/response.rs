@@ -56,12 +56,12 @@ impl Rotors {
     /// ```text
     /// (W^2 - w^2 + i w (2 zeta W + Phi'(C + G) Phi)) eta = Phi' f,   x = Phi eta
     /// ```
-    /// In the modes at rest, all of them: this is (K - w^2 M + i w (C + G + C_zeta)) x = f, where C_zeta gives every
-    /// mode at rest the damping ratio zeta. Rigid motions are not damped by it.
+    /// Computed in all modes without spin: (K - w^2 M + i w (C + G + C_zeta)) x = f, where C_zeta gives every mode
+    /// without spin the damping ratio zeta. It does not damp rigid motions.
     ///
     /// # Errors
-    /// [`GearboxError::OutOfRange`], also where a rigid motion meets a force at rest, or an undamped mode its
-    /// frequency; [`GearboxError::Count`].
+    /// [`GearboxError::OutOfRange`], also if a static force acts on a rigid motion, or an undamped mode is excited at
+    /// its own frequency; [`GearboxError::Count`].
     pub fn response(
         &self,
         speeds: &[f64],

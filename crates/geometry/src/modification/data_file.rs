@@ -1,67 +1,67 @@
-//! Tables of numbers in plain text: what the topography and the pitch files have in common.
+//! Tables of numbers in plain text: the part that topography files and pitch files have in common.
 
 use std::path::{Path, PathBuf};
 
-/// A file of measured values that cannot be read or understood.
+/// A file of measured values that cannot be read or parsed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DataFileError {
     /// The file cannot be opened or read.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why not.
+        /// Cause of the failure.
         source: std::io::Error,
     },
-    /// A word that is none of those that may stand there.
+    /// An unexpected word in the file.
     #[error("{}:{line}: expected {expected}, found `{found}`", path.display())]
     Syntax {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What may stand there.
+        /// What is expected there.
         expected: &'static str,
-        /// What does.
+        /// What was found there.
         found: String,
     },
-    /// A row of another length than the others.
+    /// A row whose length differs from that of the other rows.
     #[error("{}:{line}: {found} values in this row, not {wanted}", path.display())]
     RowLength {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
         /// Values found.
         found: usize,
-        /// Values wanted.
+        /// Values expected.
         wanted: usize,
     },
-    /// Grid lines out of order.
+    /// Grid lines that do not ascend.
     #[error("{}:{line}: {name} must rise from value to value: {before} is followed by {value}", path.display())]
     Order {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// Which axis.
+        /// Name of the axis.
         name: &'static str,
-        /// The value before.
+        /// The preceding value.
         before: f64,
-        /// The value that does not rise.
+        /// The value that is not greater.
         value: f64,
     },
     /// Too few values.
     #[error("{}: {found} {what}, at least {wanted} are needed", path.display())]
     TooFew {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What there is too little of.
+        /// Kind of value of which there are too few.
         what: &'static str,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many are needed.
+        /// Number needed.
         wanted: usize,
     },
 }

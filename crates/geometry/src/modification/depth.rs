@@ -9,10 +9,10 @@ use super::split::{Split, Splits};
 use super::{FlankModification, ProfileAxis, ProfilePlace, TopographyGrid};
 use crate::GeometryError;
 
-/// Depth at a place of a flank, normal to it, positive where material is removed.
+/// Depth at a point of a flank, normal to the flank, positive where material is removed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Depth {
-    /// mm.
+    /// Depth, mm.
     pub value: f64,
     /// Derivative by roll angle, mm.
     pub by_roll: f64,
@@ -179,8 +179,8 @@ impl DepthField {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// Smooth part of the depth and the deviation from that, as slices of an axial length (mm; 0: points) see it;
-    /// `None` where nothing was measured and all of it is smooth.
+    /// Smooth part of the depth and the deviation of the measured flank from it, averaged over slices of axial length
+    /// `slice` (mm; 0: points). `None` if the flank was not measured; then the whole depth is smooth.
     pub fn split(field: &Arc<Self>, slice: f64) -> Option<SplitDepth> {
         let grid = field.grid.as_ref()?;
         let split = field.splits.of(grid, &field.size, slice);
@@ -189,8 +189,8 @@ impl DepthField {
         Some(own)
     }
 
-    /// Least depth over the flank from root form circle to tip, mm, to what lies between 33 places along the profile and
-    /// 17 along the face.
+    /// Least depth over the flank from root form circle to tip, mm, sampled at 33 points along the profile and 17 along
+    /// the face.
     pub fn least(&self) -> f64 {
         self.least
     }
@@ -200,7 +200,7 @@ impl DepthField {
         self.along_profile.map(|ramp| ramp.and_then(|ramp| ramp.kink()))
     }
 
-    /// Least depth at a height (mm), mm; no less than [`DepthField::least`] where nothing was measured.
+    /// Least depth at a height (mm), mm; not below [`DepthField::least`] if the flank was not measured.
     pub fn least_at(&self, z: f64) -> f64 {
         if self.grid.is_some() {
             return self.least;
@@ -219,9 +219,9 @@ impl DepthField {
         self.profile_crowning * p * p + 0.5 * self.profile_slope * p + reliefs
     }
 
-    /// Half of a usual band of contact, mm: curvatures of the depth are as it sees them, since where a relief starts with
-    /// a kink there is none to be had at a point. A thirtieth of the normal module: a gear of twice the size, under the
-    /// same stress, has twice the band.
+    /// Half of a typical contact band, mm. Curvatures of the depth are averaged over it, because no curvature exists at
+    /// the kink where a linear relief starts. It is a thirtieth of the normal module: under the same stress, a gear of
+    /// twice the size has a band of twice the width.
     pub fn band(&self) -> f64 {
         self.size.band()
     }
@@ -300,8 +300,8 @@ impl DepthField {
     }
 }
 
-/// A [`DepthField`] in its smooth part, which includes all stated modifications, and the deviation of the measured flank
-/// from that.
+/// A [`DepthField`] split into its smooth part, which includes all specified modifications, and the deviation of the
+/// measured flank from it.
 #[derive(Debug, Clone)]
 pub struct SplitDepth {
     field: Arc<DepthField>,
@@ -327,12 +327,12 @@ impl SplitDepth {
         self.field.with_at_places(Some(|u: f64, z: f64| self.split.smooth(u, z)[0]), places, depths);
     }
 
-    /// What the flank lies below the smooth part, mm.
+    /// Depth of the flank below the smooth part, mm.
     pub fn deviation(&self, u: f64, z: f64) -> f64 {
         self.field.grid.as_ref().map_or(0.0, |grid| self.split.deviation(grid, u, z))
     }
 
-    /// Largest deviation either way, mm.
+    /// Largest magnitude of the deviation, mm.
     pub fn largest_deviation(&self) -> f64 {
         self.split.largest()
     }

@@ -1,8 +1,8 @@
-//! How the depth of a flank grows with a parameter. Theory (77).
+//! Derivative of the depth of a flank by a parameter. Theory (77).
 
 use super::{Depth, DepthField, ModifiedFlank};
 
-/// Derivative of the depth of a flank by a parameter, per unit of it.
+/// Derivative of the depth of a flank by a parameter, per unit of the parameter.
 #[derive(Debug, Clone)]
 pub struct DepthRate(Rate);
 
@@ -18,8 +18,8 @@ enum Rate {
 const KINK: f64 = 1e-3;
 
 impl DepthRate {
-    /// Derivative from a flank with less of the parameter, as it is and with more; `steps` to these, above 0. `None` where
-    /// nothing of the flank changes.
+    /// Derivative from three flanks: with less of the parameter, as it is, and with more. `steps` are the two
+    /// differences of the parameter, both above 0. `None` if the flank does not change.
     pub fn between([less, here, more]: [&ModifiedFlank; 3], steps: [f64; 2]) -> Option<Self> {
         if less == more {
             return None;
@@ -30,8 +30,8 @@ impl DepthRate {
         Some(Self(linear.unwrap_or_else(|| Rate::Between(Box::new([less, here, more].map(Clone::clone)), steps))))
     }
 
-    /// Derivatives of depth and slopes at roll angle `u` and height `z` (mm); `None` where those either way differ, at the
-    /// start of a relief that moves.
+    /// Derivatives of depth and slopes at roll angle `u` and height `z` (mm). `None` where the left and the right
+    /// derivative differ: at the start of a relief that moves.
     pub fn at(&self, u: f64, z: f64) -> Option<Depth> {
         let (flanks, [down, up]) = match &self.0 {
             Rate::Linear(field) => return Some(field.at(u, z)),

@@ -1,4 +1,4 @@
-//! Size of the flank that micro-geometry is put on.
+//! Size of the flank that carries the micro-geometry.
 
 use super::ProfilePlace;
 use crate::GeometryError;
@@ -22,7 +22,7 @@ pub(crate) struct FlankSize {
 }
 
 impl FlankSize {
-    /// Half of a usual band of contact, mm.
+    /// Half of a typical contact band, mm.
     pub fn band(&self) -> f64 {
         self.normal_module / BANDS_A_MODULE
     }

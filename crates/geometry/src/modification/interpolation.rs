@@ -1,4 +1,4 @@
-//! Bicubic interpolation over a grid of uneven steps, with continuous slope.
+//! Bicubic interpolation with continuous slope over a grid with uneven steps.
 
 /// Values on a grid; between them a cubic in either direction.
 ///
@@ -15,7 +15,8 @@ pub(super) struct Bicubic {
 }
 
 impl Bicubic {
-    /// `x`, `y` strictly ascending, at least two values each; `values` row by row, x slow, y fast.
+    /// `x` and `y` strictly ascend and have at least two values each. `values` are stored row by row: x varies slowly,
+    /// y fast.
     pub fn new(x: Vec<f64>, y: Vec<f64>, values: Vec<f64>) -> Self {
         let columns = y.len();
         let mut nodes: Vec<[f64; 4]> = values.iter().map(|&f| [f, 0.0, 0.0, 0.0]).collect();
@@ -34,7 +35,7 @@ impl Bicubic {
         Self { x, y, nodes }
     }
 
-    /// Number of grid lines in either direction.
+    /// Number of grid lines in x and in y.
     pub fn lines(&self) -> [usize; 2] {
         [self.x.len(), self.y.len()]
     }

@@ -1,15 +1,15 @@
-//! Micro-geometry: what is ground off the involute helicoid.
+//! Micro-geometry: deviations of the flank from the involute helicoid.
 //!
-//! Every modification is a **depth**, mm, normal to the flank, positive where material is removed, as a function of
-//! roll angle u and height z. Names after ISO 21771, evaluation ranges after ISO 1328-1:
+//! Every modification is a **depth** in mm as a function of roll angle u and height z, normal to the flank and positive
+//! where material is removed. Names follow ISO 21771, evaluation ranges follow ISO 1328-1:
 //!
 //! ```text
 //! p = (2 u - u_1 - u_2) / (u_2 - u_1)    -1 .. 1 from the start of the evaluation range to the tip circle
 //! q = 2 z / b                            -1 .. 1 over the face width
 //! ```
 //!
-//! u_1 is the root form circle unless [`FlankModification::evaluation_start`] says otherwise. Beyond the ranges (there
-//! is no flank, but a foot point may lie there) every function goes on as it is.
+//! u_1 is the root form circle unless [`FlankModification::evaluation_start`] is given. Every function is continued
+//! beyond its range: there is no flank there, but a foot point may lie there.
 //!
 //! | modification | symbol | depth |
 //! |---|---|---|
@@ -23,8 +23,8 @@
 //! | end relief | C_beta I, II | the same from its start to the end face; I: z = -b/2, II: z = +b/2 |
 //! | topography | | measured grid, see [`Topography`] |
 //!
-//! ISO 1328-1 counts deviations of slope the other way: f_Halpha > 0 where the flank stands proud at the tip. Depths
-//! add up. A pitch error turns a whole tooth about the gear's axis ([`GearModifications::pitch_errors`]).
+//! ISO 1328-1 counts slope deviations with the opposite sign: f_Halpha > 0 where the flank has extra material at the
+//! tip. Depths add up. A pitch error rotates a whole tooth about the gear's axis ([`GearModifications::pitch_errors`]).
 
 mod data_file;
 mod depth;
@@ -50,7 +50,7 @@ pub use topography::{ProfileAxis, Topography, TopographyGrid};
 
 use crate::Side;
 
-/// What is ground off one flank, the same on every tooth; amounts in mm, positive where material is removed.
+/// Modification of one flank, equal on every tooth; amounts in mm, positive where material is removed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct FlankModification {
     /// Tip relief C_alpha a.
@@ -71,8 +71,8 @@ pub struct FlankModification {
     pub bias: f64,
     /// Measured depths.
     pub topography: Option<Topography>,
-    /// Where the evaluation range of profile crowning, profile slope and bias starts (profile control circle of ISO
-    /// 1328-1); `None`: at the root form circle.
+    /// Start of the evaluation range of profile crowning, profile slope and bias (profile control circle of ISO
+    /// 1328-1); `None`: the root form circle.
     pub evaluation_start: Option<ProfilePlace>,
 }
 
@@ -84,13 +84,13 @@ pub struct GearModifications {
     /// Modification of the right flanks.
     pub right: FlankModification,
     /// Cumulative pitch deviation (index deviation) of each tooth, mm of arc on the reference circle in the transverse
-    /// plane; positive: the tooth as a whole stands too far in the direction in which teeth are
-    /// numbered: counter-clockwise, of an internal gear clockwise. Empty, or one value a tooth.
+    /// plane. Positive: the whole tooth is displaced in the direction in which teeth are numbered (counter-clockwise;
+    /// clockwise for an internal gear). Empty, or one value per tooth.
     pub pitch_errors: Vec<f64>,
 }
 
 impl FlankModification {
-    /// Whether nothing is ground off.
+    /// Whether the flank has no modification.
     pub fn is_none(&self) -> bool {
         // Where the evaluation range starts changes nothing by itself.
         *self == Self { evaluation_start: self.evaluation_start, ..Self::default() }
@@ -98,7 +98,7 @@ impl FlankModification {
 }
 
 impl GearModifications {
-    /// One modification on both sides of every tooth, no pitch errors.
+    /// The same modification on both sides of every tooth, no pitch errors.
     pub fn both(flank: FlankModification) -> Self {
         Self { left: flank.clone(), right: flank, pitch_errors: Vec::new() }
     }
@@ -111,12 +111,12 @@ impl GearModifications {
         }
     }
 
-    /// Whether the gear is the nominal one.
+    /// Whether the gear has no modification and no pitch error.
     pub fn is_none(&self) -> bool {
         self.left.is_none() && self.right.is_none() && !self.has_pitch_errors()
     }
 
-    /// Whether any tooth is out of its place.
+    /// Whether any tooth has a pitch error.
     pub fn has_pitch_errors(&self) -> bool {
         self.pitch_errors.iter().any(|e| *e != 0.0)
     }

@@ -1,16 +1,16 @@
-//! The flank as it is made: helicoid minus depth. Theory (28), (29).
+//! The flank as manufactured: helicoid minus depth. Theory (28), (29).
 
 use std::sync::Arc;
 
 use super::{Depth, DepthField, SplitDepth};
 use crate::{Flank, FlankPoint, Vec3, flank::Directions};
 
-/// One flank with its micro-geometry, in its gear's own frame; surface coordinates are those of the nominal helicoid.
+/// One flank with its micro-geometry, in its gear's own frame. Surface coordinates are those of the nominal helicoid.
 ///
 /// ```text
 /// X(u, z) = P(u, z) - h(u, z) n(u, z)
 /// ```
-/// P, n: nominal point and normal; h: depth, material removed positive.
+/// P and n are the nominal point and normal; h is the depth, positive where material is removed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModifiedFlank {
     flank: Flank,
@@ -32,21 +32,22 @@ impl ModifiedFlank {
         Self { flank, field, split: None, pitch }
     }
 
-    /// This flank with what was measured taken apart: its depth is the smooth part, and [`ModifiedFlank::deviation`]
-    /// the rest as slices of an axial length (mm; 0: points) see it. A flank that was not measured stays as it is.
+    /// This flank with its measured form split: its depth becomes the smooth part, and [`ModifiedFlank::deviation`] the
+    /// rest, averaged over slices of axial length `slice` (mm; 0: points). A flank that was not measured does not
+    /// change.
     #[must_use]
     pub fn split(mut self, slice: f64) -> Self {
         self.split = self.field.as_ref().and_then(|field| DepthField::split(field, slice));
         self
     }
 
-    /// What the flank lies below the surface of its [`ModifiedFlank::depth`], mm, normal to it: 0 unless it was taken
-    /// apart.
+    /// Depth of the flank below the surface given by [`ModifiedFlank::depth`], mm, normal to it; 0 unless the flank was
+    /// split.
     pub fn deviation(&self, u: f64, z: f64) -> f64 {
         self.split.as_ref().map_or(0.0, |split| split.deviation(u, z))
     }
 
-    /// Largest [`ModifiedFlank::deviation`] either way, mm.
+    /// Largest magnitude of [`ModifiedFlank::deviation`], mm.
     pub fn largest_deviation(&self) -> f64 {
         self.split.as_ref().map_or(0.0, SplitDepth::largest_deviation)
     }
@@ -78,8 +79,8 @@ impl ModifiedFlank {
         depth
     }
 
-    /// Depths at places, their roll angles and heights (mm), pitch error included, mm: the values of
-    /// [`ModifiedFlank::depth`], bit by bit.
+    /// Depths at several points, pitch error included, mm. `places` are roll angles and heights (mm). The values equal
+    /// those of [`ModifiedFlank::depth`] bit by bit.
     pub fn depths(&self, places: [&[f64]; 2], depths: &mut [f64]) {
         match (&self.split, &self.field) {
             (Some(split), _) => split.smooth_at_places(places, depths),
@@ -103,18 +104,17 @@ impl ModifiedFlank {
         }
     }
 
-    /// Roll angles at which profiles have kinks: where linear reliefs of root and tip start.
+    /// Roll angles at which the profile has kinks: the starts of linear root and tip reliefs.
     pub fn kinks(&self) -> [Option<f64>; 2] {
         self.field.as_ref().map_or([None; 2], |field| field.kinks())
     }
 
-    /// Half of a usual band of contact, mm: see [`DepthField::band`]; 0 of a flank that nothing is ground off.
+    /// Half of a typical contact band, mm: see [`DepthField::band`]; 0 for an unmodified flank.
     pub fn band(&self) -> f64 {
         self.field.as_ref().map_or(0.0, |f| f.band())
     }
 
-    /// Whether the flank is a plain helicoid, if one turned by a pitch error: nothing is ground off that varies along
-    /// it.
+    /// Whether the flank is a plain helicoid, possibly rotated by a pitch error: no modification varies along it.
     pub fn is_offset_helicoid(&self) -> bool {
         self.field.is_none()
     }
@@ -132,13 +132,13 @@ impl ModifiedFlank {
         self.flank.point_at(u, z, &frame) - self.depth(u, z).value * frame.normal
     }
 
-    /// Unit normal of the modified surface, out of the tooth.
+    /// Unit normal of the modified surface, pointing out of the tooth.
     ///
     /// The nominal normal tilted by the slope of the depth:
     /// ```text
     /// N ~ n + g_1 e_r + g_2 l,   g_1 = h_u / (r_b u - h cos b_b),   g_2 = cos(b_b) (h_z + s k h_u)
     /// ```
-    /// e_r is the profile direction and l that of the generator; both are tangent to the nominal flank.
+    /// e_r is the profile direction, l the direction of the generator. Both are tangent to the nominal flank.
     pub fn normal(&self, u: f64, z: f64) -> Vec3 {
         let frame = self.flank.directions(u, z);
         if self.field.is_none() {
@@ -191,12 +191,12 @@ impl ModifiedFlank {
         ]
     }
 
-    /// Foot of `p` (mm, gear's own frame) on the **nominal** helicoid, with `distance` + depth there in place of the
-    /// distance.
+    /// Foot point of `p` (mm, the gear's own frame) on the **nominal** helicoid. Its `distance` is the distance from
+    /// the helicoid plus the depth there.
     ///
-    /// It is zero exactly on the modified surface. Near it, with g the slope of the depth along the surface and w the
-    /// gap, the true distance is w (1 - g^2 / 2) up to w^2 times the curvature of the depth: of a gap of 20 um over a
-    /// relief of 20 um in 2 mm, one nanometre. `None` below the base cylinder.
+    /// This sum is zero exactly on the modified surface. Near it, with g the slope of the depth along the surface and w
+    /// the gap, the true distance is w (1 - g^2 / 2), up to w^2 times the curvature of the depth. For a gap of 20 um
+    /// over a relief of 20 um in 2 mm the difference is one nanometre. `None` below the base cylinder.
     pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
         let foot = self.flank.locate(p)?;
         if self.is_nominal() {
@@ -205,7 +205,7 @@ impl ModifiedFlank {
         Some(FlankPoint { distance: foot.distance + self.depth(foot.roll, foot.z).value, ..foot })
     }
 
-    /// Foot as [`ModifiedFlank::locate`] finds it, and the unit normal of the modified surface there.
+    /// Foot point as in [`ModifiedFlank::locate`], and the unit normal of the modified surface there.
     pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
         let (foot, frame) = self.flank.locate_with_directions(p)?;
         if self.field.is_none() {

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::data_file::{DataFileError, number, rows};
 
-/// Cumulative pitch deviations (um) from plain text, returned in mm: one number a tooth, tooth 0 first, in any number
-/// of lines, separated by commas, semicolons or blanks; `#` begins a comment.
+/// Parses cumulative pitch deviations (um) from plain text and returns them in mm. The text has one number per tooth,
+/// tooth 0 first, on any number of lines, separated by commas, semicolons or blanks; `#` begins a comment.
 ///
 /// # Errors
 /// [`DataFileError`] with file and line.

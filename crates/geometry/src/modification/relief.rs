@@ -1,10 +1,10 @@
-//! Reliefs: from a start to the edge of the flank. Theory (26).
+//! Reliefs: from their start to the edge of the flank. Theory (26).
 
 use serde::Serialize;
 
 use crate::profile::roll_angle;
 
-/// A place along the profile.
+/// A position along the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ProfilePlace {
@@ -24,14 +24,14 @@ impl ProfilePlace {
     }
 }
 
-/// How depth grows from the start of a relief to its end.
+/// How the depth grows from the start of a relief to its end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ReliefShape {
-    /// With the distance from the start: a kink there.
+    /// Linear with the distance from the start; the profile has a kink at the start.
     #[default]
     Linear,
-    /// With its square: tangent to the flank at the start.
+    /// Quadratic with the distance from the start; tangent to the flank at the start.
     Parabolic,
 }
 
@@ -40,9 +40,9 @@ pub enum ReliefShape {
 pub struct Relief {
     /// Depth at the tip circle or at the root form circle, mm.
     pub amount: f64,
-    /// Where it starts.
+    /// Position at which the relief starts.
     pub start: ProfilePlace,
-    /// How it grows.
+    /// Shape of the relief.
     pub shape: ReliefShape,
 }
 
@@ -53,7 +53,7 @@ pub struct EndRelief {
     pub amount: f64,
     /// Axial length from the start to the end face, mm.
     pub length: f64,
-    /// How it grows.
+    /// Shape of the relief.
     pub shape: ReliefShape,
 }
 
@@ -68,13 +68,13 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
-    /// From no depth at `start` to `amount` at `start + length`.
+    /// A ramp from depth 0 at `start` to `amount` at `start + length`.
     pub fn new(amount: f64, shape: ReliefShape, start: f64, length: f64) -> Self {
         Self { amount, start, per_length: 1.0 / length, shape }
     }
 
-    /// What two ramps that differ in their amounts, or are none, differ by, over `step`; `None` where they start elsewhere
-    /// or have another shape.
+    /// Difference of two ramps over `step`. The ramps may differ in their amounts, and either may be absent. `None` if
+    /// their starts or shapes differ.
     pub fn rate([less, more]: [Option<Self>; 2], step: f64) -> Option<Option<Self>> {
         let Some(any) = more.or(less) else { return Some(None) };
         let amount = |ramp: Option<Self>| ramp.map_or(0.0, |r| r.amount);
@@ -83,12 +83,12 @@ impl Ramp {
         same.then(|| (amount != 0.0).then_some(Self { amount, ..any }))
     }
 
-    /// Where it starts with a kink.
+    /// Position of the kink at the start of the ramp, if it has one.
     pub fn kink(&self) -> Option<f64> {
         (self.shape == ReliefShape::Linear && self.amount != 0.0).then_some(self.start)
     }
 
-    /// Adds the depth at each x.
+    /// Adds the depth of the ramp at each x.
     pub fn add_to(&self, depths: &mut [f64], at: &[f64]) {
         let way = |x: f64| (x - self.start) * self.per_length;
         let places = depths.iter_mut().zip(at);
@@ -104,7 +104,7 @@ impl Ramp {
         }
     }
 
-    /// Depth and its derivative by x; at the start itself the slope is that of the flank before it.
+    /// Depth and its derivative by x. At the start itself the slope is that of the flank before it.
     pub fn at(&self, x: f64) -> (f64, f64) {
         let t = (x - self.start) * self.per_length;
         if t <= 0.0 {

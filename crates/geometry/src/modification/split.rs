@@ -1,4 +1,5 @@
-//! A measured flank in two parts: a smooth one that places and curvatures of contact follow, and what is left of it. Theory (26b).
+//! A measured flank in two parts: a smooth part, which gives the positions and curvatures of contact, and the remaining
+//! deviation. Theory (26b).
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -37,7 +38,7 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// Split of a grid on a flank; `slice`: axial length that deviations are averaged over, mm, 0 for none.
+    /// Splits a grid on a flank. `slice` is the axial length over which deviations are averaged, mm; 0: no averaging.
     pub fn new(grid: &Bicubic, size: &FlankSize, slice: f64) -> Self {
         let deviation = SMOOTHED * size.band();
         let [form, tip] = size.roll.map(|u| 0.5 * size.base_radius * u * u);
@@ -90,7 +91,7 @@ impl Split {
         self.smooth.at(u, z)
     }
 
-    /// What the grid has beyond its smooth part, mm; beyond an edge of the flank what it has there.
+    /// Deviation of the grid from its smooth part, mm. Beyond an edge of the flank it is the deviation at that edge.
     pub fn deviation(&self, grid: &Bicubic, u: f64, z: f64) -> f64 {
         let (u, z) = (u.clamp(self.rolls[0], self.rolls[1]), z.clamp(-self.half_width, self.half_width));
         match &self.averaged {
@@ -99,7 +100,7 @@ impl Split {
         }
     }
 
-    /// Largest deviation either way, mm, as sampled.
+    /// Largest magnitude of the deviation, mm, as sampled.
     pub fn largest(&self) -> f64 {
         self.largest
     }
@@ -179,7 +180,7 @@ impl Samples<'_> {
 pub(super) struct Splits(Mutex<Vec<(f64, Arc<Split>)>>);
 
 impl Splits {
-    /// The split for slices of some axial length, mm.
+    /// The split for slices of axial length `slice`, mm.
     pub fn of(&self, grid: &Bicubic, size: &FlankSize, slice: f64) -> Arc<Split> {
         // An entry is whole or missing, whatever became of the thread that held the lock.
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);

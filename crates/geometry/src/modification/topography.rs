@@ -1,4 +1,4 @@
-//! A flank as it was measured: depths on a grid.
+//! A measured flank: depths on a grid.
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -20,8 +20,8 @@ pub enum ProfileAxis {
 
 /// Depths over (roll angle or diameter, z), mm, positive where material is removed.
 ///
-/// Between the grid lines a bicubic with continuous slope, in (roll angle, z); beyond the outermost lines it goes on
-/// along the tangent.
+/// Between the grid lines the depth is a bicubic with continuous slope in (roll angle, z). Beyond the outermost lines
+/// it is continued along the tangent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TopographyGrid {
     profile: ProfileAxis,
@@ -29,7 +29,7 @@ pub struct TopographyGrid {
     depths: Vec<f64>,
 }
 
-/// Measured flanks: one grid for all teeth, or grids of their own for some or all of them.
+/// Measured flanks: one grid for all teeth, or separate grids for some or all teeth.
 ///
 /// The file is plain text or CSV:
 ///
@@ -41,11 +41,12 @@ pub struct TopographyGrid {
 ///        95.5,  8.0,  6.2,  7.7
 /// ```
 ///
-/// First row: `diameter_mm` or `roll_deg`, then the heights z (mm, own frame of the gear, 0 at mid-face), ascending.
-/// Every further row: a diameter or roll angle, ascending, then one depth in um a height. At least two rows and two
-/// columns of depths. Commas, semicolons and blanks separate; `#` begins a comment.
+/// The first row has `diameter_mm` or `roll_deg`, then the heights z (mm, the gear's own frame, 0 at mid-face),
+/// ascending. Every further row has a diameter or roll angle, ascending, then one depth in um per height. There are at
+/// least two rows and two columns of depths. Values are separated by commas, semicolons or blanks; `#` begins a
+/// comment.
 ///
-/// With a first column `tooth` every row belongs to a tooth, counted from 0, and diameters ascend within each:
+/// With a first column `tooth` every row belongs to one tooth, counted from 0. Diameters ascend within each tooth:
 ///
 /// ```text
 /// tooth, diameter_mm, -9.0,  0.0,  9.0
@@ -55,8 +56,8 @@ pub struct TopographyGrid {
 ///    15,        95.5,  8.1,  6.0,  7.4
 /// ```
 ///
-/// A tooth without rows is a copy of the nearest one that has some, of the lower number where two are as near
-/// ([`Topography::of_teeth`]).
+/// A tooth without rows is a copy of the nearest tooth that has rows; of two equally near teeth the lower number is
+/// taken ([`Topography::of_teeth`]).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Topography {
     grids: Vec<TopographyGrid>,
@@ -65,11 +66,11 @@ pub struct Topography {
 }
 
 impl TopographyGrid {
-    /// A grid of depths (mm), profile line by profile line.
+    /// A grid of depths (mm), stored profile line by profile line.
     ///
     /// # Errors
-    /// [`GeometryError::OutOfRange`] for fewer than two lines either way, lines that do not ascend, or depths of another
-    /// number.
+    /// [`GeometryError::OutOfRange`] if there are fewer than two lines in either direction, if lines do not ascend, or
+    /// if the number of depths does not match.
     pub fn new(profile: ProfileAxis, z: Vec<f64>, depths: Vec<f64>) -> Result<Self, GeometryError> {
         let (ProfileAxis::Roll(lines) | ProfileAxis::Diameter(lines)) = &profile;
         let fault = |name, value: usize, expected| GeometryError::OutOfRange { name, value: value as f64, expected };
@@ -95,7 +96,7 @@ impl TopographyGrid {
         &self.z
     }
 
-    /// Depths, mm, profile line by profile line.
+    /// Depths, mm, stored profile line by profile line.
     pub fn depths(&self) -> &[f64] {
         &self.depths
     }
@@ -115,7 +116,7 @@ impl From<BTreeMap<u32, TopographyGrid>> for Topography {
 }
 
 impl Topography {
-    /// Reads the text of a file; `path` is what messages name.
+    /// Parses the text of a file; `path` is only used in messages.
     ///
     /// # Errors
     /// [`DataFileError`] with file and line.
@@ -180,21 +181,21 @@ impl Topography {
         Ok(Self { grids, teeth })
     }
 
-    /// Different grids, those of teeth in their order.
+    /// The distinct grids; grids of single teeth in the order of the teeth.
     pub fn grids(&self) -> &[TopographyGrid] {
         &self.grids
     }
 
-    /// Teeth that have grids of their own, ascending; none where one grid is that of all teeth.
+    /// Teeth with grids of their own, ascending; empty if one grid holds for all teeth.
     pub fn teeth(&self) -> &[u32] {
         &self.teeth
     }
 
-    /// Which grid each tooth of a gear of `count` teeth has: its own, or that of the nearest tooth that has one; empty
-    /// where all have the same.
+    /// Index of the grid of each tooth of a gear with `count` teeth: its own, or that of the nearest tooth with a grid.
+    /// Empty if all teeth have the same grid.
     ///
     /// # Errors
-    /// [`GeometryError::NoSuchTooth`].
+    /// [`GeometryError::NoSuchTooth`] if the topography names a tooth that the gear does not have.
     pub fn of_teeth(&self, count: u32) -> Result<Vec<usize>, GeometryError> {
         if let Some(&tooth) = self.teeth.last().filter(|tooth| **tooth >= count) {
             return Err(GeometryError::NoSuchTooth { tooth, teeth: count });

@@ -1,4 +1,4 @@
-//! A motion as plain numbers: stored, and gone on from to the same bits.
+//! A motion as plain numbers, which can be stored and continued to the same bits.
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
@@ -7,16 +7,16 @@ use crate::{Ledger, Mechanism, MotionError, State};
 
 /// A mechanism whose motion can be stored.
 pub trait Resumable: Mechanism {
-    /// State beside coordinates and velocities, as numbers: teeth in a window, extremes so far.
+    /// State in addition to coordinates and velocities, as numbers: teeth in a window, extremes so far.
     type Memory: Clone + std::fmt::Debug + PartialEq + Serialize + DeserializeOwned;
 
-    /// Present state beside coordinates and velocities.
+    /// Current state in addition to coordinates and velocities.
     fn memory(&self) -> Self::Memory;
 
-    /// Restores a stored state; nothing of other places is remembered.
+    /// Restores a stored state and discards the memory of other positions.
     ///
     /// # Errors
-    /// The mechanism's own, also for a memory of another one.
+    /// The error of the mechanism, also for a memory of another mechanism.
     fn restore(&mut self, memory: &Self::Memory) -> Result<(), Self::Error>;
 }
 
@@ -32,25 +32,25 @@ impl<M: Resumable> Resumable for &mut M {
     }
 }
 
-/// All that a motion is at the end of a cycle: it goes on from here to the same bits.
+/// Complete state of a motion at the end of a cycle, from which it continues to the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint<K> {
-    /// Cycles done.
+    /// Number of completed cycles.
     pub cycle: u64,
-    /// Coordinates and what integrator and step control carry along.
+    /// Coordinates, and the internal state of integrator and step control.
     pub state: State,
-    /// Energy.
+    /// Energy ledger.
     pub ledger: Ledger,
-    /// State of the mechanism beside coordinates and velocities.
+    /// State of the mechanism in addition to coordinates and velocities.
     pub memory: K,
     /// Counts so far.
     pub counts: Counts,
-    /// Stage of the motion: how far it has come.
+    /// Stage of the motion.
     pub stage: Stage,
 }
 
 impl<K> Checkpoint<K> {
-    /// Whether its vectors are of one length.
+    /// Whether its vectors have the same length.
     pub fn is_consistent(&self) -> bool {
         let State { q, v, a, averaged, .. } = &self.state;
         [v, a, averaged].iter().all(|part| part.len() == q.len()) && self.stage.is_of(q.len())
@@ -58,7 +58,7 @@ impl<K> Checkpoint<K> {
 }
 
 impl<M: Resumable, T: Timetable<M>> Course<M, T> {
-    /// To go on from later; `None` before the first cycle.
+    /// Checkpoint from which the motion can be continued later; `None` before the first cycle.
     pub fn checkpoint(&self) -> Option<Checkpoint<M::Memory>> {
         Some(Checkpoint {
             cycle: self.cycle,
@@ -70,11 +70,11 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
         })
     }
 
-    /// Course that goes on from a checkpoint.
+    /// Continues a motion from a checkpoint.
     ///
     /// # Errors
-    /// [`MotionError::OtherCoordinates`] for a checkpoint of another mechanism, [`MotionError::Mechanism`] where its
-    /// memory cannot be taken up.
+    /// [`MotionError::OtherCoordinates`] for a checkpoint of another mechanism, [`MotionError::Mechanism`] if its
+    /// memory cannot be restored.
     pub fn resume(mut system: M, timetable: T, from: Checkpoint<M::Memory>) -> Result<Self, MotionError<M::Error>> {
         let (checkpoint, motion) = (from.state.q.len(), system.mass().nrows());
         if checkpoint != motion || !from.is_consistent() {

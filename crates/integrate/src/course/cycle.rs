@@ -1,28 +1,28 @@
-//! One cycle of a motion: the only place that advances it.
+//! One cycle of a motion: the only place that advances it in time.
 
 use super::{Counts, Course, CycleTimes, RowPlace, Timetable};
 use crate::{Direction, Envelope, Integrator, Ledger, Mechanism, MotionError, Progress, State};
 
-/// A state of a motion of which a row is made.
+/// A state of a motion at which a row is written.
 #[derive(Debug)]
 pub struct Row<'a, M> {
-    /// The mechanism as it stands there.
+    /// The mechanism in this state.
     pub system: &'a mut M,
-    /// State.
+    /// State of the motion.
     pub state: &'a State,
     /// Energy so far.
     pub ledger: &'a Ledger,
 }
 
-/// Who gets the rows of a cycle.
+/// Receiver of the rows of a cycle.
 pub type RowReader<'a, M, E> = &'a mut dyn FnMut(Row<'_, M>) -> Result<(), E>;
 
 impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
-    /// One cycle; `seen` gets every row until it fails, which ends the motion. What comes back is how far coordinates
-    /// and velocities went.
+    /// Runs one cycle. `seen` receives every row; an error from it ends the motion. Returns the extent of coordinates
+    /// and velocities in the cycle.
     ///
     /// # Errors
-    /// [`MotionError`], [`MotionError::StandsStill`] where there is no further cycle; those of `seen`.
+    /// [`MotionError`], including [`MotionError::StandsStill`] if there is no further cycle; the errors of `seen`.
     pub fn run_cycle<E: From<MotionError<M::Error>>>(
         &mut self,
         mut seen: Option<RowReader<'_, M, E>>,
@@ -82,10 +82,10 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         Ok(envelope)
     }
 
-    /// Finds accelerations and energy of the start, where nothing has been advanced yet: what a row of it needs.
+    /// Computes accelerations and energy at the start, if nothing has been advanced yet. A row at the start needs them.
     ///
     /// # Errors
-    /// [`MotionError`].
+    /// [`MotionError`] if the forces cannot be computed.
     pub fn begin(&mut self) -> Result<&Ledger, MotionError<M::Error>> {
         if self.ledger.is_none()
             && let Some(times) = self.timetable.cycle(&self.system, self.cycle, self.state.time)

@@ -1,4 +1,4 @@
-//! The one loop in time: cycle after cycle of any mechanism, with rows, counts, events and energy.
+//! The time loop: cycle after cycle of any mechanism, with rows, counts, events and energy.
 //!
 //! | module | what it does |
 //! |---|---|
@@ -24,30 +24,30 @@ pub use timetable::{Ahead, CycleTimes, EvenRows, Method, RowPlace, Stop, Timetab
 
 use crate::{Integrator, Ledger, Mechanism, MotionError, State};
 
-/// Counts of a motion since its energy is counted.
+/// Counts of a motion since its energy balance started.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
-    /// Steps taken back because their error was too large, or taken in parts.
+    /// Number of steps that were rejected because their error was too large, or that were divided.
     pub refused: u64,
-    /// How often each event function went through zero: up, and down.
+    /// Number of zero crossings of each event function: upwards, and downwards.
     pub crossings: Vec<[u64; 2]>,
 }
 
 impl Counts {
-    /// How often event `event` went up through zero; 0 for an event that there is not.
+    /// Number of upward zero crossings of event `event`; 0 for an event that does not exist.
     pub fn ups(&self, event: usize) -> u64 {
         self.crossings.get(event).map_or(0, |both| both[0])
     }
 
-    /// How often event `event` went down through zero; 0 for an event that there is not.
+    /// Number of downward zero crossings of event `event`; 0 for an event that does not exist.
     pub fn downs(&self, event: usize) -> u64 {
         self.crossings.get(event).map_or(0, |both| both[1])
     }
 }
 
-/// A motion of a mechanism under way, by a timetable.
+/// A motion of a mechanism in progress, according to a timetable.
 #[derive(Debug)]
 pub struct Course<M, T> {
     system: M,
@@ -62,7 +62,7 @@ pub struct Course<M, T> {
 }
 
 impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
-    /// Course at the start of cycle 0 in a state.
+    /// A motion at the start of cycle 0 in a given state.
     pub fn new(system: M, timetable: T, state: State) -> Self {
         let (counts, stage) = (Counts::default(), Stage::default());
         Self { system, timetable, state, ledger: None, cycle: 0, counts, stage, integrator: None }
@@ -73,17 +73,17 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         &self.system
     }
 
-    /// The mechanism, for a search that leaves it as it is.
+    /// Access to the mechanism, for a search that leaves it unchanged.
     pub fn system_mut(&mut self) -> &mut M {
         &mut self.system
     }
 
-    /// The mechanism, at the end of its motion.
+    /// Returns the mechanism at the end of its motion.
     pub fn into_system(self) -> M {
         self.system
     }
 
-    /// Cycles, rows and steps.
+    /// The timetable: cycles, rows and steps.
     pub fn timetable(&self) -> &T {
         &self.timetable
     }
@@ -98,7 +98,7 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         self.ledger.as_ref()
     }
 
-    /// Cycles done.
+    /// Number of completed cycles.
     pub fn cycle(&self) -> u64 {
         self.cycle
     }
@@ -108,23 +108,23 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         &self.counts
     }
 
-    /// Steps in a cycle with rows, on average; `None` before the first.
+    /// Average number of steps per cycle with rows; `None` before the first.
     pub fn steps_per_cycle(&self) -> Option<f64> {
         let Stage { recorded, steps_before, .. } = self.stage;
         (recorded > 0).then(|| self.counts.steps.saturating_sub(steps_before) as f64 / recorded as f64)
     }
 
-    /// Stage of the motion: how far it has come.
+    /// Stage of the motion.
     pub fn stage(&self) -> &Stage {
         &self.stage
     }
 
-    /// Whether there is a further cycle: a run-down may end before it.
+    /// Whether there is a further cycle; a run-down may end before it.
     pub fn goes_on(&self) -> bool {
         self.timetable.cycle(&self.system, self.cycle, self.state.time).is_some()
     }
 
-    /// What comes next: so many cycles from where the motion stands; `None` where it ends before.
+    /// Times of the next `count` cycles; `None` if the motion ends before.
     pub fn ahead(&self, count: u64) -> Option<Ahead> {
         let mut begin = self.state.time;
         let one = |k| {
@@ -136,10 +136,10 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         Some(Ahead { state: self.state.clone(), method: self.timetable.method(&self.system), cycles })
     }
 
-    /// Goes on from another state at the same time, its own accelerations included; energy and counts begin anew.
+    /// Continues from another state at the same time, with its accelerations. Energy balance and counts restart.
     ///
     /// # Errors
-    /// [`MotionError`] where it has no energy.
+    /// [`MotionError`] if the energy of the state cannot be computed.
     pub fn replace(&mut self, state: State) -> Result<(), MotionError<M::Error>> {
         let time = state.time;
         let potential = self.system.potential(time, &state.q);

@@ -1,4 +1,4 @@
-//! Settle, then rows; checkpoints on the way.
+//! Settling, then rows, with checkpoints in between.
 
 use super::{Ahead, Checkpoint, Compared, Course, Resumable, Row, Settle, Stage, Timetable};
 use crate::{Mechanism, MotionError, Periodicity, Recurrence, SignalRecurrence, State};
@@ -9,65 +9,66 @@ const FIRST_SHOT: u64 = 8;
 /// Goal of a motion.
 #[derive(Debug)]
 pub struct Goal<M: Mechanism> {
-    /// Comparison that decides whether the motion repeats itself; `None`: it is not compared.
+    /// Comparison that decides whether the motion repeats; `None`: no comparison.
     pub compared: Option<Compared<M>>,
-    /// Settles first.
+    /// Settling before the rows.
     pub settle: Option<Settle>,
-    /// Difference over a period that counts as none in cycles with rows.
+    /// Difference over a period that counts as periodic in cycles with rows.
     pub tolerance: f64,
-    /// Cycles with rows.
+    /// Number of cycles with rows.
     pub cycles: u64,
-    /// Whether the state in which rows begin is one of them.
+    /// Whether the state at which rows begin is a row itself.
     pub starts_with_row: bool,
-    /// Cycles from one checkpoint to the next; 0: none.
+    /// Number of cycles between checkpoints; 0: no checkpoints.
     pub checkpoint_every: u64,
-    /// Stops with a checkpoint when so many cycles are done, settling included.
+    /// Stops with a checkpoint after this number of cycles, settling included.
     pub stop_after: Option<u64>,
 }
 
-/// Who is told of a motion, and may end it by an error.
+/// Observer of a motion; it can end the motion by an error.
 pub trait Follower<M: Resumable> {
-    /// Why it ends a motion; those of the motion among them.
+    /// Error with which the observer ends a motion, including the errors of the motion.
     type Error: From<MotionError<M::Error>>;
 
-    /// A row.
+    /// Called for each row.
     ///
     /// # Errors
-    /// Whatever ends the motion.
+    /// Any error ends the motion.
     fn row(&mut self, row: Row<'_, M>) -> Result<(), Self::Error>;
 
-    /// A cycle is complete.
+    /// Called at the end of each cycle.
     ///
     /// # Errors
-    /// Whatever ends the motion.
+    /// Any error ends the motion.
     fn cycle(&mut self, _stage: &Stage) -> Result<(), Self::Error> {
         Ok(())
     }
 
-    /// A state to go on from with all rows so far.
+    /// Called with a state from which the motion can be continued, after all rows so far.
     ///
     /// # Errors
-    /// Whatever ends the motion.
+    /// Any error ends the motion.
     fn checkpoint(&mut self, _state: Checkpoint<M::Memory>) -> Result<(), Self::Error> {
         Ok(())
     }
 
-    /// Whether a motion that repeats itself so nearly is to be taken to its periodic state at once.
+    /// Whether a motion with this periodicity is to be brought to its periodic state immediately.
     fn seeks(&self, _system: &M, _found: Periodicity) -> bool {
         false
     }
 
-    /// A state at the same time that is nearer to the periodic one than waiting has come, by the cycles of the next period;
-    /// `None` where there is none. Asked for now and then of a motion that [`Follower::seeks`] it.
+    /// A state at the same time that is nearer to the periodic one than the state reached by waiting, given the cycles
+    /// of the next period; `None` if there is none. It is requested occasionally for a motion that [`Follower::seeks`]
+    /// it.
     ///
     /// # Errors
-    /// Whatever ends the motion.
+    /// Any error ends the motion.
     fn nearer(&mut self, _system: &mut M, _period: &Ahead) -> Result<Option<State>, Self::Error> {
         Ok(None)
     }
 }
 
-/// Gets rows, and nothing else.
+/// Observer that only receives rows.
 #[derive(Debug)]
 pub struct OnlyRows<F>(pub F);
 
@@ -85,19 +86,19 @@ where
 }
 
 impl<M: Resumable, T: Timetable<M>> Course<M, T> {
-    /// Settles where that is asked for, then runs the cycles with rows; whether it stopped on the way.
+    /// Settles if requested, then runs the cycles with rows. Returns whether it stopped early.
     ///
     /// # Errors
-    /// Those of the motion and of the follower.
+    /// The errors of the motion and of the observer.
     pub fn run<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
         Ok(self.settle(goal, follower)? || self.record(goal, follower)?)
     }
 
-    /// Cycles without rows until the motion repeats itself, so many as are allowed at the most; whether it stopped on the
-    /// way. Nothing to do for a motion among its rows.
+    /// Runs cycles without rows until the motion repeats, at most the permitted number. Returns whether it stopped
+    /// early. Does nothing for a motion that already writes rows.
     ///
     /// # Errors
-    /// Those of the motion and of the follower.
+    /// The errors of the motion and of the observer.
     pub fn settle<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
         self.begin_comparing(goal);
         let Some(Settle { tolerance, most }) = goal.settle.as_ref().filter(|_| !self.stage.recording) else {
@@ -124,10 +125,10 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
         Ok(false)
     }
 
-    /// Cycles with rows; whether it stopped on the way.
+    /// Runs the cycles with rows. Returns whether it stopped early.
     ///
     /// # Errors
-    /// Those of the motion and of the follower.
+    /// The errors of the motion and of the observer.
     pub fn record<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
         self.begin_comparing(goal);
         self.stage.recording = true;

@@ -1,22 +1,22 @@
-//! How far a motion has come, and what is compared from cycle to cycle.
+//! Stage of a motion, and the quantities that are compared from cycle to cycle.
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::{Envelope, Mechanism, Periodicity, Recurrence, SignalRecurrence, State};
 
-/// Stage of a motion: before its rows, or among them.
+/// Stage of a motion: before its rows, or while rows are written.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
-    /// Whether rows are written: the motion has settled, or need not.
+    /// Whether rows are written, because the motion has settled or need not settle.
     pub recording: bool,
-    /// Cycles with rows.
+    /// Number of cycles with rows.
     pub recorded: u64,
-    /// Rows.
+    /// Number of rows.
     pub rows: u64,
     /// Steps that were taken before the first of these cycles, of those that are counted.
     pub(super) steps_before: u64,
-    /// How nearly the last period repeated an earlier one; its period is counted in cycles.
+    /// How accurately the last period repeated an earlier one; its period is counted in cycles.
     pub periodicity: Option<Periodicity>,
     /// States at the beginnings of the last periods, where states are compared.
     pub(super) states: Option<Recurrence>,
@@ -36,22 +36,22 @@ impl Stage {
     }
 }
 
-/// Comparison that decides whether a motion repeats itself.
+/// Comparison that decides whether a motion repeats.
 pub enum Compared<M: Mechanism> {
-    /// States at the ends of periods.
+    /// Compares states at the ends of periods.
     States {
-        /// Sizes of the coordinates; infinite of those that are not compared.
+        /// Magnitudes of the coordinates; infinite for coordinates that are not compared.
         scale: DVector<f64>,
-        /// A coordinate that need not return: of it, only the velocity is compared.
+        /// A coordinate that need not return; only its velocity is compared.
         free: Option<usize>,
-        /// Cycles of a period, >= 1: as many as it takes until all that excites the mechanism comes back.
+        /// Number of cycles in a period, >= 1, after which all excitations repeat.
         period: u64,
     },
-    /// One number of each row of a period.
+    /// Compares one number per row of a period.
     Signal {
-        /// The number.
+        /// Function that gives the number.
         of: fn(&mut M, &State) -> Result<f64, M::Error>,
-        /// Cycles of a period, as of states.
+        /// Number of cycles in a period, as for states.
         period: u64,
     },
 }
@@ -73,12 +73,12 @@ impl<M: Mechanism> Compared<M> {
     }
 }
 
-/// What is asked of a motion before its rows begin.
+/// Requirement on a motion before its rows begin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settle {
-    /// Difference after a period over the peak to peak that counts as none.
+    /// Difference over a period, relative to the peak to peak, that counts as periodic.
     pub tolerance: f64,
-    /// Cycles at the most.
+    /// Largest number of cycles.
     pub most: u64,
 }
 

@@ -4,105 +4,105 @@ use nalgebra::DVector;
 
 use crate::{Integrator, Mechanism, Scheme, State, StepControl};
 
-/// Method of integration, but for the length of steps.
+/// Integration method without the length of its steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Method {
-    /// Method of integration.
+    /// Scheme of the integration.
     pub scheme: Scheme,
-    /// What counts as a large motion of each coordinate, > 0.
+    /// Magnitude of each coordinate that counts as large, > 0.
     pub scale: DVector<f64>,
-    /// Ends a step wherever an event function changes its sign.
+    /// Whether a step ends wherever an event function changes its sign.
     pub stop_at_events: bool,
-    /// Divides a step of given length where an explicit method would be unstable with the whole.
+    /// Whether a step of given length is divided if an explicit method would be unstable with the whole step.
     pub keep_stable: bool,
 }
 
 impl Method {
-    /// An integrator with steps of these lengths.
+    /// An integrator with this method and this step control.
     pub fn integrator(self, control: StepControl) -> Integrator {
         let plain = Integrator::new(self.scheme, control, self.scale).stopping_at_events(self.stop_at_events);
         if self.keep_stable { plain.keeping_stable() } else { plain }
     }
 }
 
-/// A time at which a step ends.
+/// A time at which a step must end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     /// Time, s.
     pub time: f64,
-    /// Whether a row belongs to it.
+    /// Whether a row is written there.
     pub is_row: bool,
 }
 
 impl Stop {
-    /// Stop with a row.
+    /// A stop with a row.
     pub fn row(time: f64) -> Self {
         Self { time, is_row: true }
     }
 }
 
-/// Place of rows in a cycle.
+/// Positions of the rows in a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowPlace {
-    /// Rows at the beginning of each stop with a row.
+    /// Rows at the beginning of the interval of each stop with a row.
     Beginnings,
     /// Rows at each stop with a row.
     Ends,
-    /// Behind every so many-th step, >= 1: steps of equal length meet the rows by themselves.
+    /// Rows after every n-th step, n >= 1; steps of equal length hit the rows exactly.
     Steps(u64),
 }
 
 /// Steps and rows of one cycle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CycleTimes {
-    /// Times at which steps end, ascending; the last one ends the cycle. None: the cycle takes no time.
+    /// Times at which steps must end, ascending; the last one ends the cycle. Empty: the cycle takes no time.
     pub stops: Vec<Stop>,
-    /// Place of rows in the cycle.
+    /// Positions of the rows in the cycle.
     pub rows: RowPlace,
     /// Length of the steps between the stops.
     pub control: StepControl,
 }
 
-/// Cycles that come next in a motion.
+/// The next cycles of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ahead {
-    /// Where they begin.
+    /// State at their beginning.
     pub state: State,
-    /// Method of their steps.
+    /// Integration method.
     pub method: Method,
-    /// Their times.
+    /// Times of the cycles.
     pub cycles: Vec<CycleTimes>,
 }
 
-/// Divides the time of a motion.
+/// Division of the time of a motion into cycles.
 pub trait Timetable<M: Mechanism> {
     /// Method of integration for a mechanism.
     fn method(&self, system: &M) -> Method;
 
-    /// Times of cycle `cycle`, counted from 0, which begins at the time `begin` (s). `None` where the motion ends before
-    /// this cycle is over.
+    /// Times of cycle `cycle`, counted from 0, which begins at the time `begin` (s). `None` if the motion ends before
+    /// the end of this cycle.
     fn cycle(&self, system: &M, cycle: u64, begin: f64) -> Option<CycleTimes>;
 
-    /// Whether all that mechanism and integrator remember is forgotten at the beginning of every cycle; else only where
-    /// a motion can be taken up again.
+    /// Whether the memory of mechanism and integrator is discarded at the beginning of every cycle. Otherwise it is
+    /// discarded only where a motion can be continued from a checkpoint.
     fn restarts(&self) -> bool {
         true
     }
 }
 
-/// A cycle without rows, of which a motion settles, then one with rows that are evenly spaced, at the beginning of each
-/// interval.
+/// Two cycles: one without rows, in which the motion settles, then one with evenly spaced rows, each at the beginning
+/// of its interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvenRows {
-    /// Method of integration.
+    /// Integration method.
     pub method: Method,
-    /// Length of the steps; one ends at every row.
+    /// Length of the steps; a step ends at every row.
     pub control: StepControl,
     /// Time of the first row, s.
     pub first: f64,
-    /// Time from row to row, s.
+    /// Time between rows, s.
     pub spacing: f64,
-    /// Rows.
+    /// Number of rows.
     pub rows: usize,
 }
 

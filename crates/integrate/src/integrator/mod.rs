@@ -1,4 +1,4 @@
-//! Steps one after the other: their length, their events, their energy.
+//! The sequence of steps: their length, their events, their energy.
 
 mod step;
 
@@ -16,12 +16,12 @@ const MANY_STEPS: u64 = 30_000;
 /// Mean step over the largest allowed below which a motion does not get on.
 const CRAWLING: f64 = 1e-3;
 
-/// What a caller sees of a motion after every step.
+/// State of a motion that a caller receives after every step.
 #[derive(Debug)]
 pub struct Progress<'a> {
     /// State at the end of the step.
     pub state: &'a State,
-    /// Forces of the step's last evaluation: at its end, in its middle with [`Scheme::Energy`].
+    /// Forces of the step's last evaluation: at its end, or in its middle for [`Scheme::Energy`].
     pub forces: &'a Forces,
     /// Energy so far.
     pub ledger: &'a Ledger,
@@ -61,7 +61,7 @@ struct Kept {
 }
 
 impl Integrator {
-    /// `scale`: what counts as a large motion of each coordinate, > 0; tolerances are relative to it.
+    /// `scale` is the magnitude of each coordinate that counts as large, > 0; tolerances are relative to it.
     pub fn new(scheme: Scheme, control: StepControl, scale: DVector<f64>) -> Self {
         let (forces, work) = (Forces::zeros(scale.len()), StepWork::new(scale.len()));
         let (guard, tangents_at) = (None, None);
@@ -81,17 +81,17 @@ impl Integrator {
         }
     }
 
-    /// Divides a step of given length where an explicit method would be unstable with the whole; the tangents at its
+    /// Divides a step of given length if an explicit method would be unstable with the whole step; the tangents at its
     /// beginning decide. Theory (48a).
     ///
-    /// Steps chosen by an error tolerance need no such care: instability shows as an error that shortens them.
+    /// Steps chosen by an error tolerance do not need this: instability appears as an error that shortens them.
     #[must_use]
     pub fn keeping_stable(self) -> Self {
         let guard = matches!(self.control, StepControl::Fixed(_)).then(|| StabilityGuard::new(self.scheme)).flatten();
         Self { guard, ..self }
     }
 
-    /// Ends a step at every event, so that no step runs over a kink of the forces.
+    /// Ends a step at every event, so that no step passes over a kink of the forces.
     #[must_use]
     pub fn stopping_at_events(self, stop_at_events: bool) -> Self {
         Self { stop_at_events, ..self }
@@ -125,22 +125,23 @@ impl Integrator {
         self.ledger.as_ref()
     }
 
-    /// Integrator that goes on with the ledger of an earlier one (restart).
+    /// Integrator that continues with the ledger of an earlier one (restart).
     #[must_use]
     pub fn resumed(self, ledger: Ledger) -> Self {
         Self { ledger: Some(ledger), ..self }
     }
 
-    /// Steps taken, and steps taken back because their error was too large, or taken in parts.
+    /// Number of steps taken, and number of steps that were rejected because their error was too large, or that were
+    /// divided.
     pub fn steps(&self) -> [u64; 2] {
         [self.steps, self.refused]
     }
 
-    /// Integrates from `state` to the time `until`, calling `seen` after every step. A start finds its accelerations
-    /// itself.
+    /// Integrates from `state` to the time `until` and calls `seen` after every step. The accelerations of an initial
+    /// state are computed here.
     ///
     /// # Errors
-    /// [`MotionError`].
+    /// [`MotionError`] if the motion cannot continue.
     pub fn advance<M: Mechanism>(
         &mut self,
         system: &mut M,

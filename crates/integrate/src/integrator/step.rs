@@ -1,4 +1,4 @@
-//! One step: by the scheme, as long as its error allows, in halves where it has no solution.
+//! One step: by the scheme, repeated with shorter length if its error is too large, in halves if it has no solution.
 
 use nalgebra::{Cholesky, Dyn};
 

@@ -1,14 +1,14 @@
-//! Implicit midpoint with a discrete gradient: energy is what the ledger says, to round-off, at any step. Theory (48).
+//! Implicit midpoint rule with a discrete gradient: the energy balance closes to round-off for any step. Theory (48).
 //!
-//! O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
+//! Source: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 //!
 //! ```text
 //! q_1 - q_0 = h (v_0 + v_1) / 2,   M (v_1 - v_0) = h [f(t_m, q_m, v_m) + c W (q_1 - q_0)]
 //! c = -[V(t_m, q_1) - V(t_m, q_0) + f_c(q_m) . (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0),   W = M
 //! ```
-//! m: the middle of the step. Second order, without numerical damping at any frequency. Forces with kinks (contact lost
-//! and gained) do only the work that their potential accounts for. The change of V with time alone between t_0 and t_1
-//! is booked as parametric work.
+//! m is the middle of the step. Second order, without numerical damping at any frequency. Forces with kinks (contact
+//! lost and gained) do exactly the work that their potential accounts for. The explicit change of V with time between
+//! t_0 and t_1 is booked as parametric work.
 
 use nalgebra::DMatrix;
 

@@ -1,7 +1,7 @@
-//! Generalised-alpha: second order, implicit, high frequencies damped as much as asked for.
+//! Generalised-alpha method: second order, implicit, with adjustable damping of high frequencies.
 //!
-//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371; in the form that takes forces at the ends of steps only (M.
-//! Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185).
+//! Source: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371, in the form that evaluates forces only at the ends of
+//! steps (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185).
 //!
 //! ```text
 //! q_1 = q_0 + h v_0 + h^2 [(1/2 - beta) b_0 + beta b_1],   v_1 = v_0 + h [(1 - gamma) b_0 + gamma b_1]

@@ -1,5 +1,5 @@
-//! The methods of integration by name, and the lengths of their steps. A method is a file here that has a `Stepper`, and a line of
-//! [`Scheme`] and of `with_stepper`.
+//! The integration methods by name, and the lengths of their steps. A method is a file in this folder with a `Stepper`,
+//! and a line in [`Scheme`] and in `with_stepper`.
 
 mod energy;
 mod generalised_alpha;
@@ -16,21 +16,21 @@ use crate::{
     stepper::{Step, Stepped, Stepper},
 };
 
-/// Method of integration.
+/// Integration method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scheme {
-    /// Generalised-alpha with this spectral radius at infinite frequency, 0 .. 1.
+    /// Generalised-alpha method with a given spectral radius at infinite frequency, 0 .. 1.
     GeneralisedAlpha {
-        /// rho at infinity: 1 keeps all high frequencies, 0 takes them away in one step.
+        /// rho at infinite frequency: 1 keeps all high frequencies, 0 removes them in one step.
         rho: f64,
     },
-    /// Newmark's constant average acceleration.
+    /// Newmark's method with constant average acceleration.
     Newmark,
-    /// Implicit midpoint with a discrete gradient: keeps energy to round-off.
+    /// Implicit midpoint rule with a discrete gradient, which conserves energy to round-off.
     Energy,
-    /// Dormand-Prince 5(4), explicit.
+    /// Dormand-Prince 5(4) method, explicit.
     DormandPrince,
-    /// Runge-Kutta's classical method of fourth order, explicit.
+    /// Classical Runge-Kutta method of fourth order, explicit.
     RungeKutta4,
 }
 
@@ -63,7 +63,7 @@ macro_rules! with_stepper {
 }
 
 impl Scheme {
-    /// Whether steps beyond a limit of length let every motion grow without bounds.
+    /// Whether every motion grows without bounds if steps exceed a stability limit.
     pub fn is_explicit(&self) -> bool {
         self.stability_polynomial().is_some()
     }
@@ -74,8 +74,8 @@ impl Scheme {
         with_stepper!(self, stepper => stepper.stability_polynomial())
     }
 
-    /// Whether the method carries an acceleration of its own from step to step: a part of the state beside coordinates
-    /// and velocities.
+    /// Whether the method carries an acceleration of its own from step to step, which is then part of the state in
+    /// addition to coordinates and velocities.
     pub fn carries_acceleration(&self) -> bool {
         with_stepper!(self, stepper => stepper.carries_acceleration())
     }
@@ -90,18 +90,18 @@ impl Scheme {
     }
 }
 
-/// Length of steps.
+/// Control of the step length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepControl {
-    /// Always this long.
+    /// Steps of this constant length.
     Fixed(f64),
-    /// Steps such that the local error of each stays below `tolerance` times the coordinates' scale.
+    /// Steps whose local error stays below `tolerance` times the scale of the coordinates.
     Adaptive {
-        /// Local error over scale.
+        /// Tolerance for the local error, relative to the scale.
         tolerance: f64,
         /// First step.
         first: f64,
-        /// A shorter step is an error.
+        /// Least permitted step; a shorter one is an error.
         least: f64,
         /// Longest step.
         largest: f64,
@@ -109,8 +109,8 @@ pub enum StepControl {
 }
 
 impl StepControl {
-    /// Steps of length `longest` (s), or by a local error where one is allowed: then no longer than that, and no shorter
-    /// than a ten-millionth of it.
+    /// Steps of length `longest` (s) or, with a tolerance, steps by local error, at most that long and at least a
+    /// ten-millionth of it.
     pub fn new(tolerance: Option<f64>, longest: f64) -> Self {
         match tolerance {
             None => Self::Fixed(longest),

@@ -1,8 +1,8 @@
 //! Explicit Runge-Kutta methods, for comparison and for systems without stiff parts.
 //!
-//! Work of the forces is integrated along as further unknowns. The last stage of a table stands at the end of the step,
-//! with the weights of the method itself: it gives the accelerations there, and the estimate of the error a value to
-//! compare with.
+//! Work of the forces is integrated as further unknowns. The last stage of a tableau is at the end of the step and has
+//! the weights of the method itself. It gives the accelerations there, and a value to compare with for the error
+//! estimate.
 
 use nalgebra::DVector;
 

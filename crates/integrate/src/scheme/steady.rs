@@ -1,4 +1,4 @@
-//! What steps make of the steady answer of an oscillator to a harmonic force.
+//! Effect of time steps on the steady response of an oscillator to a harmonic force.
 //!
 //! ```text
 //! x'' + 2 zeta w x' + w^2 x = F cos(W t),   z = exp(i W h)
@@ -6,8 +6,9 @@
 //! generalised-alpha  X = x F / (1 + 2 zeta w v + w^2 x),   v = r h A / (z - 1),   x = (h v + r h^2 B) / (z - 1)
 //! A = 1 - gamma + gamma z,   B = 1/2 - beta + beta z,   r = [(1 - a_f) z + a_f] / [(1 - a_m) z + a_m]
 //! ```
-//! Runge and Kutta's method takes each of both roots l of l^2 + 2 zeta w l + w^2 by itself: y' = l y + F exp(i W t), one step of
-//! it from 0 over z - R(l h), R its growth without a force. Dormand and Prince's is no worse, and is taken as that.
+//! The Runge-Kutta method treats each root l of l^2 + 2 zeta w l + w^2 separately: y' = l y + F exp(i W t), one step
+//! from 0 divided by z - R(l h), where R is its growth without a force. The error of Dormand-Prince is not larger and
+//! is taken to be equal.
 
 use std::f64::consts::TAU;
 
@@ -16,10 +17,12 @@ use nalgebra::Complex;
 use super::{Coefficients, Scheme};
 
 impl Scheme {
-    /// Amplitude of the steady answer of an oscillator with steps of one length, over that of the exact answer. Theory (66a).
+    /// Amplitude of the steady response of an oscillator with steps of equal length, divided by that of the exact
+    /// response. Theory (66a).
     ///
-    /// `angle`: W h, rad, the force's phase in a step, above 0; `ratio`: W / w, the force's frequency over the
-    /// oscillator's own; `damping`: its damping ratio. Infinite where half a period or more falls into a step.
+    /// `angle` is W h, rad, the phase of the force per step, above 0; `ratio` is W / w, the frequency of the force
+    /// divided by the natural frequency of the oscillator; `damping` is its damping ratio. Infinite if a step contains
+    /// half a period or more.
     pub fn steady_gain(&self, angle: f64, ratio: f64, damping: f64) -> f64 {
         if angle >= std::f64::consts::PI {
             return f64::INFINITY;
@@ -40,16 +43,16 @@ impl Scheme {
     }
 }
 
-/// Steps of one length in a steady motion of an oscillator that comes back after a period.
+/// Steps of equal length in a periodic steady motion of an oscillator.
 #[derive(Debug, Clone, Copy)]
 pub struct SteadySteps {
-    /// In a period.
+    /// Number of steps per period.
     pub per_period: f64,
-    /// Method.
+    /// Integration method.
     pub scheme: Scheme,
-    /// Frequency of the oscillator over that of the period; 0: nothing holds it.
+    /// Natural frequency of the oscillator divided by the frequency of the period; 0: no stiffness.
     pub resonance: f64,
-    /// Its damping ratio.
+    /// Damping ratio of the oscillator.
     pub damping: f64,
 }
 
@@ -57,8 +60,9 @@ pub struct SteadySteps {
 const SHIFTS: i32 = 5;
 
 impl SteadySteps {
-    /// By how much of itself steps may change the answer to an order of the period, where the frequency of the oscillator is
-    /// known to a share: max |G - 1|, theory (66a). All of it where they do not show the order.
+    /// Largest relative change that the steps may cause in the response to an order of the period, if the natural
+    /// frequency is known only to a relative accuracy `share`: max |G - 1|, theory (66a). It is 1 if the steps do not
+    /// resolve the order.
     pub fn gain_error(&self, order: f64, share: f64) -> f64 {
         let angle = TAU * order / self.per_period;
         let off = |by: i32| {

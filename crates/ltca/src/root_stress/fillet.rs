@@ -1,4 +1,4 @@
-//! The nodes of one fillet, which of them are neighbours, and the peak of a stress on them.
+//! The nodes of one fillet, their neighbours, and the peak of a stress on them.
 
 use std::collections::BTreeMap;
 
@@ -59,7 +59,7 @@ impl<'a> Surroundings<'a> {
         Self { mesh, faces, about, turn: largest_turn(mesh, found.faces()), fallback }
     }
 
-    /// The fillet of these nodes (ascending), which come to stand from `first` on.
+    /// The fillet with these nodes (ascending), whose positions in the window's list start at `first`.
     pub fn fillet(&self, tooth: u32, side: Side, nodes: &[u32], first: usize) -> Fillet {
         // Negative of a ring, as the radius to compare with is: larger towards the tip.
         let radius = |node: u32| {
@@ -91,29 +91,32 @@ impl<'a> Surroundings<'a> {
 }
 
 impl Fillet {
-    /// Places of its nodes among those of the window.
+    /// Positions of its nodes in the window's list.
     pub fn places(&self) -> impl Iterator<Item = usize> + '_ {
         self.places.iter().copied()
     }
 
-    /// Largest of `sign` times a measure over all nodes, as a value of the measure.
+    /// Largest value of `sign` times a measure over all nodes; returned as a value of the measure.
     pub fn largest(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<f64> {
         self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })
     }
 
-    /// The most of `sign` times a measure at a place and at those that share a face with it, as a value of the measure.
+    /// Largest value of `sign` times a measure at a node and at the nodes that share a face with it; returned as a
+    /// value of the measure.
     pub fn beside(&self, at: usize, value: impl Fn(usize) -> f64, sign: f64) -> f64 {
         let near = self.places.binary_search(&at).ok().into_iter().flat_map(|i| self.neighbours[i].iter().copied());
         near.map(&value).fold(value(at), |best, v| if sign * v > sign * best { v } else { best })
     }
 
-    /// Place of the peak of `sign` times a measure, by two recoveries of it: the peak of the first one that both see most
-    /// of; of places below the [`FALLBACK_TANGENT`] and the uppermost row where there is no peak but in the lowest row,
-    /// of all places where no row but the lowest is left.
+    /// Position of the peak of `sign` times a measure, from two recoveries of it. Of the peaks of the first recovery
+    /// it is the one at which the smaller of both recoveries is largest. If all peaks are in the lowest row, it is the
+    /// largest value below the [`FALLBACK_TANGENT`] and below the uppermost row; if only the lowest row lies there, the
+    /// largest value of all nodes.
     ///
-    /// A peak is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there
-    /// is the stress of contact beside it, which has no limit as the mesh is refined. Both recoveries see the bending of
-    /// a tooth alike; beside a force at its corner, within an element, the first one sees up to twice as much.
+    /// A peak is a node whose value no neighbour exceeds and that is not in the uppermost row. Stress that increases up
+    /// to the uppermost row is the stress of the contact next to it, which has no limit under mesh refinement. Both
+    /// recoveries give the same bending stress of a tooth; within an element of a force at its corner the first one
+    /// gives up to twice as much.
     pub fn peak(&self, first: impl Fn(usize) -> f64, second: impl Fn(usize) -> f64, sign: f64) -> Option<usize> {
         // Peaks may have one value beside them in common: of these the larger by itself.
         let rank = |at: usize| {

@@ -3,12 +3,13 @@
 //! ```text
 //! sigma(x_i) = S_i u_B        at the surface nodes x_i of the window's fillets
 //! ```
-//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), made once a window (once a gear if it is
-//! cyclic): no station goes back to the whole mesh. With all degrees of freedom kept, the stress operator takes their
-//! place.
+//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), computed once per window (once per gear if
+//! it is cyclic). So no station needs the whole mesh. For gears with all degrees of freedom the stress operator is used
+//! instead.
 //!
-//! Two recoveries: from the displacement of the free surface alone, which is the stress that is told, and from the
-//! Gauss points of the elements, whose distance from it says how far the mesh has settled.
+//! There are two recoveries of the stress. The first uses only the displacement of the free surface; it is the reported
+//! stress. The second uses the Gauss points of the elements; its difference from the first shows how far the mesh has
+//! converged.
 
 mod fillet;
 mod turn;
@@ -29,11 +30,11 @@ use serde::Serialize;
 
 use crate::{StaticError, WindowedPair};
 
-/// What is called root stress; said wherever one is handed on.
+/// Definition of the root stress, given wherever a root stress is reported.
 pub const ROOT_STRESS_DEFINITION: &str = "largest peak of the stress on the free surface of the root fillets, from the 20 deg tangent to the \
     middle of the tooth space, over the whole face width; stress that rises up to the flank is of contact and left out";
 
-/// How it comes from the displacement of the mesh; said beside it.
+/// Recovery of the root stress from the displacement of the mesh, given with the definition.
 pub const ROOT_STRESS_RECOVERY: &str = "strains in the surface from the displacement of its faces, no stress across it, by \
     polynomials through the most accurate points of the faces about each node, then principal values";
 
@@ -47,21 +48,21 @@ const ERROR_SHARE: f64 = 0.35;
 /// 18 deg, and are 1.3 % off at the most.
 const ERROR_OF_TURN: f64 = 0.15;
 
-/// The largest of some stress measure in a fillet, and where.
+/// Largest value of a stress measure in a fillet, and its position.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StressPeak {
-    /// MPa, tension positive.
+    /// Stress, MPa, positive in tension.
     pub stress: f64,
-    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs
-    /// print.
+    /// Largest value of the same measure in the whole fillet from the Gauss points of the elements, MPa, as other
+    /// programs print it.
     pub from_volume: f64,
-    /// Largest of it at the node and those that share a face with it, MPa.
+    /// Largest value at the node and at the nodes that share a face with it, MPa.
     pub beside: f64,
-    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces
-    /// over their radius.
+    /// Largest angle by which the surface of the gear's fillets turns within one face, rad: the size of the faces
+    /// divided by their radius.
     pub turn: f64,
-    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every
-    /// tooth has.
+    /// Tag of the node in the mesh file (1, 2, ... for a generated mesh). For a periodic sector it is the sector's own
+    /// node, which every tooth has.
     pub node: u64,
     /// Distance of the node from the gear's axis, mm.
     pub radius: f64,
@@ -71,13 +72,13 @@ pub struct StressPeak {
 
 /// Stress on the surface of one root fillet, from its 20 deg tangent to the middle of the tooth space.
 ///
-/// Recovered as [`ROOT_STRESS_RECOVERY`] says. The fillet below the loaded flank is in tension, the other one of the
-/// tooth in compression.
+/// Recovered as described in [`ROOT_STRESS_RECOVERY`]. The fillet below the loaded flank is in tension, the tooth's
+/// other fillet in compression.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FilletStress {
-    /// Tooth, 0 .. z-1.
+    /// Tooth number, 0 .. z-1.
     pub tooth: u32,
-    /// Side of the tooth that the fillet is on.
+    /// Side of the tooth on which the fillet lies.
     pub side: Side,
     /// Largest principal stress.
     pub max_principal: StressPeak,
@@ -87,30 +88,30 @@ pub struct FilletStress {
     pub von_mises: StressPeak,
 }
 
-/// Principal stresses at a place of a fillet's surface.
+/// Principal stresses at a point of a fillet's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilletPlace {
     /// Distance from the gear's axis, mm.
     pub radius: f64,
     /// Height from mid-face, mm.
     pub z: f64,
-    /// Largest principal stress, MPa; that across the surface is 0.
+    /// Largest principal stress, MPa. The principal stress across the surface is 0.
     pub max_principal: f64,
     /// Smallest principal stress, MPa.
     pub min_principal: f64,
 }
 
-/// A fillet with all its places.
+/// A fillet with the stress at all its points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilletField {
-    /// Peaks.
+    /// Peaks of the stress measures.
     pub peaks: FilletStress,
-    /// Places, one a node of the mesh.
+    /// Points of the fillet, one per node of the mesh.
     pub places: Vec<FilletPlace>,
 }
 
 impl FilletField {
-    /// Makes it the stress under as many times the load.
+    /// Scales the stress to `load` times the load.
     pub fn grow(&mut self, load: f64) {
         self.peaks = self.peaks.times(load);
         for place in &mut self.places {
@@ -121,7 +122,7 @@ impl FilletField {
 }
 
 impl FilletStress {
-    /// The stress under as many times the load.
+    /// The stress under `load` times the load.
     pub fn times(&self, load: f64) -> Self {
         let of = |peak: StressPeak| StressPeak {
             stress: load * peak.stress,
@@ -136,16 +137,16 @@ impl FilletStress {
 }
 
 impl StressPeak {
-    /// What both recoveries see of it, MPa, the smaller of them: by this the largest of several peaks is the one that
-    /// counts. Beside a force at the corner of a tooth, within an element, they see unlike stress.
+    /// The smaller of the two recovered values, MPa. The largest of several peaks is chosen by it, because within an
+    /// element of a force at the corner of a tooth the recoveries differ.
     pub fn seen(&self) -> f64 {
         if self.beside.abs() < self.stress.abs() { self.beside } else { self.stress }
     }
 
-    /// Estimate of how far `stress` is from that of an infinitely fine mesh, as a share of it. 0 at rest.
+    /// Estimated relative difference of `stress` from that on an infinitely fine mesh; 0 without load.
     ///
-    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and
-    /// what both can share: 0.35 |stress - beside| / |stress| + 0.15 turn^2.
+    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, plus
+    /// an estimate of the error that both have in common: 0.35 |stress - beside| / |stress| + 0.15 turn^2.
     pub fn relative_error(&self) -> f64 {
         let off =
             ERROR_SHARE * (self.stress - self.beside).abs() + ERROR_OF_TURN * self.turn.powi(2) * self.stress.abs();
@@ -155,7 +156,7 @@ impl StressPeak {
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 
-/// Fillets of both gears and the maps to their stress, window by window.
+/// Fillets of both gears and the maps to their stress, per window.
 #[derive(Debug)]
 pub struct RootStress {
     fillets: [RootFillets; 2],
@@ -231,11 +232,11 @@ impl RootStress {
         Self { fillets, fallback, windows: Mutex::default() }
     }
 
-    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them
-    /// the fillets that share a space with the window's outermost teeth.
+    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, the right fillet before the left. The
+    /// fillets that share a tooth space with the outermost teeth are included.
     ///
-    /// `loads` are those of an equilibrium: forces (N) on the boundary coordinates of reduced gears, displacements (mm) of
-    /// whole ones; without any the gears are at rest.
+    /// `loads` are those of an equilibrium: forces (N) on the boundary coordinates of reduced gears, displacements (mm)
+    /// of whole gears. Without loads the stress is zero.
     pub fn of(
         &self,
         windowed: &WindowedPair,
@@ -244,10 +245,10 @@ impl RootStress {
         self.each(windowed, loads, |_, _, peaks| peaks)
     }
 
-    /// The same fillets with the stress at all their places.
+    /// The same fillets with the stress at all their points.
     ///
     /// # Errors
-    /// As of [`RootStress::of`].
+    /// The errors of [`RootStress::of`].
     pub fn fields(
         &self,
         windowed: &WindowedPair,

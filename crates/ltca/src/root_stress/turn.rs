@@ -1,4 +1,4 @@
-//! How far the surface turns within one face: the size of the faces of a fillet against its radius.
+//! Size of a fillet's faces relative to its radius: how far the surface turns within one face.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,5 @@
-//! What a small turn of the driven gear, and a neighbour of the pair, change of the conditions of contact, forces held.
+//! Change of the contact conditions by a small rotation of the driven gear and by a change of the pair, with constant
+//! forces.
 
 use contact::{
     ContactSet, Friction, Site,
@@ -45,7 +46,7 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// Whether moment and pressures have the same rates below and above.
+    /// Whether moment and pressures have equal derivatives on both sides.
     pub fn is_smooth(&self) -> bool {
         let [a, b] = &self.pressure;
         [&self.moment, a, b].into_iter().all(|[below, above]| below == above)
@@ -78,8 +79,8 @@ impl Conditions {
         }
     }
 
-    /// Derivatives of the conditions at held forces with respect to the rotation of the driven gear (per radian), then to
-    /// the parameters (per unit). `None` where a slice that counts is not on the flanks of a neighbour.
+    /// Derivatives of the conditions at constant forces by the rotation of the driven gear (per radian), then by the
+    /// parameters (per unit). `None` if a relevant slice is not on the flanks of a changed pair.
     pub fn rates(
         &self,
         windowed: &WindowedPair,

@@ -1,4 +1,4 @@
-//! The solution's answer to a change of its conditions.
+//! Response of the solution to a change of its conditions.
 
 use contact::{ContactSet, TableWork};
 use faer::{Mat, linalg::solvers::PartialPivLu, prelude::Solve};

@@ -1,4 +1,4 @@
-//! How does a solved position follow a change of the pair? Theory (77).
+//! Derivatives of a solved position by parameters of the pair. Theory (77).
 //!
 //! | module | what it does |
 //! |---|---|
@@ -24,31 +24,30 @@ pub use variation::Variation;
 pub struct PositionRates {
     /// Derivative of the transmission error, mm.
     pub transmission_error: f64,
-    /// Derivative of the transmission error without load, mm; NaN where it was not requested.
+    /// Derivative of the transmission error without load, mm; NaN if not requested.
     pub kinematic_transmission_error: f64,
-    /// Derivative of the secant stiffness F_bt / (te - kinematic te), N/mm; NaN where the unloaded pair was not
-    /// requested.
+    /// Derivative of the secant stiffness F_bt / (te - kinematic te), N/mm; NaN if the unloaded pair was not requested.
     pub secant_stiffness: f64,
     /// Derivative of the largest contact pressure, MPa.
     pub max_pressure: f64,
-    /// Derivative of the largest pressure at an end face or a tip edge, MPa; 0 where none presses.
+    /// Derivative of the largest pressure at an end face or a tip edge, MPa; 0 if none is in contact.
     pub max_edge_pressure: f64,
     /// Derivative of the normal force of each tooth pair of the window, N, in the order of
     /// [`crate::StaticPosition::pairs`].
     pub pair_forces: Vec<f64>,
 }
 
-/// Derivatives in either direction of a parameter.
+/// Derivatives on both sides of a parameter's value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
-    /// Derivatives as the parameter falls, and as it grows; both per unit of growth.
+    /// Derivatives for decreasing and for increasing parameter; both per unit of increase.
     pub sides: [PositionRates; 2],
-    /// Whether both are the same: no slice is about to touch or to leave, none presses on a kink.
+    /// Whether both are equal: no slice is about to enter or leave contact, none is in contact on a kink.
     pub is_smooth: bool,
 }
 
 impl Sensitivity {
-    /// The derivative; the middle of both where they differ.
+    /// The derivative, or the mean of both if they differ.
     pub fn rates(&self) -> PositionRates {
         let [a, b] = &self.sides;
         let middle = |of: fn(&PositionRates) -> f64| 0.5 * (of(a) + of(b));
@@ -63,7 +62,7 @@ impl Sensitivity {
     }
 }
 
-/// Parameters of a model, and its flanks at their neighbouring values.
+/// Parameters of a model, and its flanks at neighbouring values of these parameters.
 #[derive(Debug)]
 pub struct Sensitivities {
     variations: Vec<Variation>,
@@ -81,27 +80,27 @@ struct VariedSets {
 }
 
 impl Sensitivities {
-    /// Derivatives with respect to some parameters of a model.
+    /// Derivatives by several parameters of a model.
     pub fn new(variations: Vec<Variation>) -> Self {
         Self { variations, unloaded: true, sets: None }
     }
 
-    /// Derivatives of the loaded pair alone: those of the unloaded one cost as much as all others together.
+    /// Only the derivatives of the loaded pair. Those of the unloaded pair cost as much as all others together.
     #[must_use]
     pub fn of_loaded_pair(self) -> Self {
         Self { unloaded: false, ..self }
     }
 
-    /// Derivatives of the model's last solution, one entry a parameter.
+    /// Derivatives of the model's last solution, one entry per parameter.
     ///
     /// The contact conditions are differentiated at the solution (implicit differentiation): forces and rotation follow
-    /// by one back-substitution a parameter, no contact is solved again. Partial derivatives at held forces follow from
-    /// places, directions and curvatures of the loaded slices in closed form, for all parameters together. Exact to some
-    /// 1e-7 where the solution is smooth.
+    /// by one back-substitution per parameter, without solving the contact again. Partial derivatives at constant
+    /// forces follow in closed form from positions, directions and curvatures of the loaded slices, for all parameters
+    /// together. The error is about 1e-7 where the solution is smooth.
     ///
     /// # Errors
     /// [`StaticError::NoDerivative`] for contact of points, for gears with all their degrees of freedom, without a
-    /// solution, and where a loaded slice is about to leave the flanks.
+    /// solution, and if a loaded slice is about to leave the flanks.
     pub fn of(&mut self, model: &StaticModel) -> Result<Vec<Sensitivity>, StaticError> {
         let options = model.options();
         let Some(e) = model.last().filter(|_| options.torque > 0.0) else {

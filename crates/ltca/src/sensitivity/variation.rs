@@ -1,4 +1,4 @@
-//! A parameter of a pair, as the pair with a little less and with a little more of it.
+//! A parameter of a pair, given by the pairs with slightly smaller and slightly larger values.
 
 use geometry::GearPair;
 
@@ -16,7 +16,7 @@ pub(crate) struct Neighbour {
     pub options: StaticOptions,
 }
 
-/// A parameter that changes what neither meshes nor matrices know: micro-geometry, misalignment, friction, torque.
+/// A parameter on which meshes and matrices do not depend: micro-geometry, misalignment, friction, torque.
 #[derive(Debug, Clone)]
 pub struct Variation {
     pub(super) sides: [Neighbour; 2],
@@ -25,8 +25,8 @@ pub struct Variation {
 }
 
 impl Variation {
-    /// The pair with the parameter less by `steps[0]` and more by `steps[1]`, both above 0 and equal but where a limit
-    /// is near. Steps that move flanks by a 300 000th of the normal module serve best.
+    /// Takes the pairs with the parameter decreased by `steps[0]` and increased by `steps[1]`. Both steps are above 0,
+    /// and equal unless a limit is near. Best are steps that move flanks by a 300 000th of the normal module.
     pub fn new([down, up]: [(GearPair, StaticOptions); 2], steps: [f64; 2]) -> Self {
         let side = |(pair, options)| Neighbour { pair, options };
         Self { sides: [side(down), side(up)], steps }
@@ -73,7 +73,7 @@ pub(super) struct Touch<'a> {
 }
 
 impl<'a> Touch<'a> {
-    /// `None` where the flanks touch along lines, or at the end of what they face of each other.
+    /// `None` if the flanks touch along lines, or at the end of the range in which they face each other.
     pub fn new(windowed: &WindowedPair<'a>, e: &Equilibrium) -> Option<Self> {
         let here = Unloaded::turned(windowed.pair, &windowed.options.contact, e.station, e.unloaded_rotation);
         let at = here.polished(e.unloaded_touch.as_ref()?)?;

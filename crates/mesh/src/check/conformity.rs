@@ -1,4 +1,4 @@
-//! Whether elements that touch share whole faces: else the body has slits that no picture shows.
+//! Checks that elements that touch share whole faces. Otherwise the body has slits that no picture shows.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Whether the two cut faces of a sector are the same face turned.
+//! Checks that the second cut face of a sector is the first one rotated by the sector's angle.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};

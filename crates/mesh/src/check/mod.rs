@@ -1,4 +1,4 @@
-//! What is wrong with a mesh, found before a solver stumbles over it.
+//! Finds defects of a mesh before they make a solver fail.
 
 mod conformity;
 mod cuts;
@@ -13,75 +13,75 @@ use crate::error::list;
 use crate::quality::{min_det_j, positions, scaled_jacobian};
 use crate::{Face, FaceTable, GroupNames, Mesh, info};
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Worth knowing.
+    /// For information.
     Note,
-    /// Results will suffer.
+    /// Results will be less accurate.
     Warning,
     /// The mesh cannot be used.
     Error,
 }
 
-/// What a finding is about.
+/// Subject of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum FindingKind {
-    /// Elements with det J <= 0 somewhere.
+    /// Elements with det J <= 0 at some point.
     Inverted,
-    /// Elements of a scaled Jacobian below [`BAD_SHAPE`].
+    /// Elements with a scaled Jacobian below [`BAD_SHAPE`].
     BadShape,
     /// Nodes that no element uses.
     OrphanNodes,
-    /// Nodes in one place.
+    /// Several nodes at the same position.
     DoubleNodes,
-    /// Faces of more than two elements.
+    /// Faces that belong to more than two elements.
     CrowdedFaces,
-    /// Elements that touch without sharing a face as a whole.
+    /// Elements that touch but do not share a whole face.
     NotConforming,
-    /// Bodies that do not hang together.
+    /// Bodies that are not connected to each other.
     Disconnected,
-    /// A part of the gear without a group.
+    /// A part of the gear that has no group.
     MissingGroup,
-    /// Faces of a group that lie inside the body or on no element.
+    /// Faces of a group that lie inside the body or belong to no element.
     NotOnBoundary,
-    /// Periodic faces that do not fit onto each other.
+    /// Periodic faces that do not match each other.
     CutsDiffer,
-    /// A bore that is no cylinder about z.
+    /// A bore that is not a cylinder about z.
     BoreNotRound,
-    /// A gear whose axis seems to be another than z.
+    /// A gear whose axis does not seem to be the z axis.
     Axis,
     /// A mid-face that is not at z = 0.
     MidFace,
-    /// A size that no gear in mm has.
+    /// A size that is implausible for a gear in mm: wrong units.
     Units,
 }
 
-/// One thing found.
+/// One finding.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
-    /// How bad it is.
+    /// Severity of the finding.
     pub severity: Severity,
     /// Kind of the finding.
     pub kind: FindingKind,
-    /// The finding in words and figures.
+    /// Text of the finding, with figures.
     pub text: String,
-    /// How many elements, nodes or faces it concerns.
+    /// Number of elements, nodes or faces concerned.
     pub count: usize,
-    /// Tags of the elements concerned, at most [`SHOWN`], the worst first.
+    /// Tags of the elements concerned, the worst first, at most [`SHOWN`].
     pub elements: Vec<u64>,
     /// Tags of the nodes concerned, at most [`SHOWN`].
     pub nodes: Vec<u64>,
 }
 
-/// Elements with a scaled Jacobian below this make stresses doubtful. (Verdict recommends 0.2 and
-/// more for hexahedra; fillets of fine gears come close to that.)
+/// Limit of the scaled Jacobian. Elements below it make stresses doubtful. (Verdict recommends 0.2 and more for
+/// hexahedra; fillets of fine gears come close to this limit.)
 pub const BAD_SHAPE: f64 = 0.1;
 
-/// Most tags that a finding names.
+/// Largest number of tags that a finding lists.
 pub const SHOWN: usize = 20;
 
 /// All findings about a mesh, the worst first.
@@ -92,12 +92,12 @@ pub struct MeshReport {
 }
 
 impl MeshReport {
-    /// Checks a mesh with our own group names.
+    /// Checks a mesh that uses the default group names.
     pub fn new(mesh: &Mesh) -> Self {
         Self::of_gear(mesh, &GroupNames::default(), None)
     }
 
-    /// Checks the mesh of a gear with `teeth` teeth and someone's group names.
+    /// Checks the mesh of a gear with `teeth` teeth and the given group names.
     pub fn of_gear(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>) -> Self {
         let table = FaceTable::new(mesh);
         let mut findings = Vec::new();
@@ -116,7 +116,7 @@ impl MeshReport {
         Self { findings }
     }
 
-    /// The worst severity; `None` when nothing was found.
+    /// The worst severity; `None` if there are no findings.
     pub fn worst(&self) -> Option<Severity> {
         self.findings.iter().map(|f| f.severity).max()
     }

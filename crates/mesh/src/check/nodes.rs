@@ -1,4 +1,4 @@
-//! Nodes that no element uses, nodes in one place, bodies that do not hang together.
+//! Nodes that no element uses, nodes at the same position, bodies that are not connected.
 
 use rayon::prelude::*;
 

@@ -6,7 +6,7 @@ use super::{
 };
 
 impl FaceKind {
-    /// Values of the shape functions at `xi`, into the first `node_count()` entries of `n`.
+    /// Writes the values of the shape functions at `xi` into the first `node_count()` entries of `n`.
     ///
     /// # Panics
     /// When `n` is shorter than `node_count()`.
@@ -16,7 +16,7 @@ impl FaceKind {
         }
     }
 
-    /// Gradients dN/d(xi) of the shape functions at `xi`, into the first `node_count()` entries of `dn`.
+    /// Writes the gradients dN/d(xi) of the shape functions at `xi` into the first `node_count()` entries of `dn`.
     ///
     /// # Panics
     /// When `dn` is shorter than `node_count()`.

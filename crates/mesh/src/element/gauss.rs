@@ -2,7 +2,8 @@
 
 /// Abscissas and weights of the n-point Gauss-Legendre rule on [-1, 1], ascending.
 ///
-/// Any number of points: faces under contact. Newton on P_n from Chebyshev's estimate; weights 2 / ((1 - x^2) P_n'^2).
+/// Works for any number of points, because faces in contact may need many. Newton's method on P_n from Chebyshev's
+/// estimate; weights 2 / ((1 - x^2) P_n'^2).
 pub fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
     let polynomial = |x: f64| {
         let (mut before, mut now) = (1.0, x);

@@ -1,6 +1,6 @@
 //! Reference elements: node order, faces, shape functions, integration points.
 //!
-//! Node order and reference coordinates are Gmsh's:
+//! Node order and reference coordinates follow Gmsh:
 //!
 //! | family | reference element                                   | volume |
 //! |--------|-----------------------------------------------------|--------|
@@ -10,8 +10,8 @@
 //! | quad   | [-1, 1]^2                                           | 4      |
 //! | tri    | x, y >= 0, x + y <= 1                               | 1/2    |
 //!
-//! Corners come first, then the middles of the edges in the order of `edges()`, then centres of
-//! faces in the order of `faces()`, then the centre of the element.
+//! Corners come first, then the midpoints of the edges in the order of `edges()`, then the centres of faces in the
+//! order of `faces()`, then the centre of the element.
 
 mod face_shape;
 mod gauss;
@@ -22,7 +22,7 @@ mod topology;
 pub use gauss::gauss_legendre;
 pub use quadrature::{FaceQuadraturePoint, QuadraturePoint, QuadratureRule};
 
-/// Kinds of volume elements; node order is Gmsh's.
+/// Kinds of volume elements; the node order is Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ElementKind {
     /// Trilinear brick.
@@ -41,7 +41,7 @@ pub enum ElementKind {
     Wedge15,
 }
 
-/// Kinds of boundary faces; node order is Gmsh's.
+/// Kinds of boundary faces; the node order is Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FaceKind {
     /// Linear triangle.

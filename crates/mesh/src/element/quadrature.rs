@@ -21,33 +21,33 @@ use super::{
     gauss::line,
 };
 
-/// A point of integration in a volume element.
+/// An integration point of a volume element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuadraturePoint {
     /// Reference coordinates.
     pub xi: [f64; 3],
-    /// Weight; the weights sum to the reference element's volume.
+    /// Weight; the weights add up to the volume of the reference element.
     pub weight: f64,
 }
 
-/// A point of integration on a face.
+/// An integration point of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceQuadraturePoint {
     /// Reference coordinates.
     pub xi: [f64; 2],
-    /// Weight; the weights sum to the reference face's area.
+    /// Weight; the weights add up to the area of the reference face.
     pub weight: f64,
 }
 
-/// What is integrated.
+/// The integral that a rule is made for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum QuadratureRule {
-    /// Stiffness, fully: no zero modes but the rigid ones.
+    /// Stiffness with full integration: the only zero modes are the rigid-body modes.
     Stiffness,
-    /// Stiffness with fewer points where that is a known good element (hex20 with 2^3 points, the
-    /// C3D20R of other programs); the full rule for every other kind.
+    /// Stiffness with reduced integration where that gives a known good element (hex20 with 2^3 points, the C3D20R of
+    /// other programs); full integration for every other kind.
     Reduced,
-    /// Consistent mass.
+    /// Consistent mass matrix.
     Mass,
 }
 

@@ -8,12 +8,12 @@
 //! wedge6   1/2 L_i (1+zz_i)
 //! wedge15  corner: 1/2 L [(2L-1)(1+zz_i) - (1-z^2)];  triangle's edge: 2 L_a L_b (1+zz_i);  upright edge: L (1-z^2)
 //! ```
-//! x, y, z: reference coordinates; x_i, y_i, z_i: the node's; L: barycentric coordinates.
+//! x, y, z are reference coordinates; x_i, y_i, z_i those of the node; L are barycentric coordinates.
 
 use super::ElementKind::{self, Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15};
 
 impl ElementKind {
-    /// Values of the shape functions at `xi`, into the first `node_count()` entries of `n`.
+    /// Writes the values of the shape functions at `xi` into the first `node_count()` entries of `n`.
     ///
     /// # Panics
     /// When `n` is shorter than `node_count()`.
@@ -43,7 +43,7 @@ impl ElementKind {
         }
     }
 
-    /// Gradients dN/d(xi) of the shape functions at `xi`, into the first `node_count()` entries of `dn`.
+    /// Writes the gradients dN/d(xi) of the shape functions at `xi` into the first `node_count()` entries of `dn`.
     ///
     /// # Panics
     /// When `dn` is shorter than `node_count()`.

@@ -1,4 +1,4 @@
-//! Names, counts, Gmsh type numbers, reference nodes, edges and outward faces of every kind.
+//! Names, counts, Gmsh type numbers, reference nodes, edges and outward faces of every element kind.
 
 use super::{
     ElementKind::{self, Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15},
@@ -9,7 +9,7 @@ use super::{
 type LocalFace = (FaceKind, &'static [usize]);
 
 impl ElementKind {
-    /// Every kind, linear before quadratic inside each family.
+    /// All kinds; in each family linear kinds come before quadratic ones.
     pub const ALL: [Self; 7] = [Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15];
 
     /// Number of nodes.
@@ -25,7 +25,7 @@ impl ElementKind {
         }
     }
 
-    /// Number of corners; these are the first nodes.
+    /// Number of corners; the first nodes of an element are its corners.
     pub const fn corner_count(self) -> usize {
         match self {
             Hex8 | Hex20 | Hex27 => 8,
@@ -42,7 +42,7 @@ impl ElementKind {
         }
     }
 
-    /// Gmsh's number for this kind, as in `.msh` files.
+    /// Gmsh's number of this kind, as in `.msh` files.
     pub const fn gmsh_type(self) -> i32 {
         match self {
             Hex8 => 5,
@@ -60,7 +60,7 @@ impl ElementKind {
         Self::ALL.into_iter().find(|k| k.gmsh_type() == number)
     }
 
-    /// Short name for messages and tables, for instance `hex20`.
+    /// Short name for messages and tables, such as `hex20`.
     pub const fn name(self) -> &'static str {
         match self {
             Hex8 => "hex8",
@@ -96,7 +96,7 @@ impl ElementKind {
         }
     }
 
-    /// Corner pairs of the edges. In quadratic kinds node `corner_count() + k` lies on edge k.
+    /// Pairs of corners that form the edges. In quadratic kinds node `corner_count() + k` lies on edge k.
     pub const fn edges(self) -> &'static [[usize; 2]] {
         match self {
             Hex8 | Hex20 | Hex27 => &HEX_EDGES,
@@ -105,7 +105,7 @@ impl ElementKind {
         }
     }
 
-    /// Faces with their nodes in local numbers, turning so that the normal points outwards.
+    /// Faces with their local node numbers, ordered so that the normal points outwards.
     pub const fn faces(self) -> &'static [(FaceKind, &'static [usize])] {
         match self {
             Hex8 => &HEX8_FACES,
@@ -120,7 +120,7 @@ impl ElementKind {
 }
 
 impl FaceKind {
-    /// Every kind, linear before quadratic inside each family.
+    /// All kinds; in each family linear kinds come before quadratic ones.
     pub const ALL: [Self; 5] = [Tri3, Tri6, Quad4, Quad8, Quad9];
 
     /// Number of nodes.
@@ -134,7 +134,7 @@ impl FaceKind {
         }
     }
 
-    /// Number of corners; these are the first nodes.
+    /// Number of corners; the first nodes of a face are its corners.
     pub const fn corner_count(self) -> usize {
         match self {
             Tri3 | Tri6 => 3,
@@ -150,7 +150,7 @@ impl FaceKind {
         }
     }
 
-    /// Gmsh's number for this kind, as in `.msh` files.
+    /// Gmsh's number of this kind, as in `.msh` files.
     pub const fn gmsh_type(self) -> i32 {
         match self {
             Tri3 => 2,
@@ -166,7 +166,7 @@ impl FaceKind {
         Self::ALL.into_iter().find(|k| k.gmsh_type() == number)
     }
 
-    /// Short name for messages and tables, for instance `quad8`.
+    /// Short name for messages and tables, such as `quad8`.
     pub const fn name(self) -> &'static str {
         match self {
             Tri3 => "tri3",

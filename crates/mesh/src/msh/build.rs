@@ -1,4 +1,5 @@
-//! From what a file says to a model: groups resolved, copies and strays left out, tags in order.
+//! Makes a model from the content of a file: groups are resolved, duplicate and unused items are dropped, tags are
+//! sorted.
 
 use std::collections::{BTreeMap, BTreeSet};
 

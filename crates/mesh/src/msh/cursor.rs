@@ -1,4 +1,4 @@
-//! A place in the bytes of a mesh file that reads numbers as text or as bytes.
+//! Reading position in the bytes of a mesh file; reads numbers as text or as bytes.
 
 use std::path::Path;
 
@@ -28,17 +28,17 @@ impl<'a> Cursor<'a> {
         self.at
     }
 
-    /// Bytes of the file.
+    /// Size of the file in bytes.
     pub fn length(&self) -> u64 {
         self.bytes.len() as u64
     }
 
-    /// Error at the present place.
+    /// Error at the current position.
     pub fn error(&self, problem: MshProblem) -> MshError {
         self.error_at(self.at, problem)
     }
 
-    /// Error at an earlier place.
+    /// Error at an earlier position.
     pub fn error_at(&self, offset: usize, problem: MshProblem) -> MshError {
         let offset = offset.min(self.bytes.len());
         let place = if self.binary {
@@ -68,7 +68,7 @@ impl<'a> Cursor<'a> {
         self.error(MshProblem::Syntax { expected: expected.to_owned(), found })
     }
 
-    /// Refuses a count of things of at least `least` bytes each that the file cannot hold.
+    /// Rejects a count of items of at least `least` bytes each if the file is too short for it.
     pub fn check_room(&self, what: &'static str, declared: u64, least: usize) -> Result<usize, MshError> {
         // The last thing of a text file may lack its separator: one byte of grace.
         let room = (self.rest().len() as u64 + 1) / least.max(1) as u64;
@@ -83,7 +83,7 @@ impl<'a> Cursor<'a> {
         self.at += self.rest().iter().take_while(|b| b.is_ascii_whitespace()).count();
     }
 
-    /// Skips one line end, `\n` or `\r\n`, after blanks: what follows is binary data or a text line.
+    /// Skips blanks and one line end, `\n` or `\r\n`, before binary data or a text line.
     pub fn line_end(&mut self) -> Result<(), MshError> {
         while let [b' ' | b'\t' | b'\r', ..] = self.rest() {
             self.at += 1;
@@ -98,14 +98,14 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Start of a line of a record; nothing in binary.
+    /// Start of a line of a record; does nothing in binary files.
     pub fn record_start(&mut self) {
         if !self.binary {
             self.skip_space();
         }
     }
 
-    /// End of a line of a record; nothing in binary.
+    /// End of a line of a record; does nothing in binary files.
     pub fn record_end(&mut self) -> Result<(), MshError> {
         if self.binary { Ok(()) } else { self.line_end() }
     }
@@ -124,7 +124,7 @@ impl<'a> Cursor<'a> {
         Ok(&rest[..length])
     }
 
-    /// The next word of the present line as a number written in text, also in a binary file.
+    /// The next word of the current line as a number written in text, also in a binary file.
     pub fn text<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, MshError> {
         let start = self.at;
         let word = self.word(expected)?;
@@ -168,7 +168,7 @@ impl<'a> Cursor<'a> {
         })
     }
 
-    /// So many integers of 4 bytes that must not be negative, appended to `into`.
+    /// Reads `count` non-negative integers of 4 bytes each and appends them to `into`.
     pub fn naturals(&mut self, count: usize, expected: &str, into: &mut Vec<u64>) -> Result<(), MshError> {
         into.reserve(count);
         if self.binary
@@ -196,7 +196,7 @@ impl<'a> Cursor<'a> {
         if self.binary { Ok(f64::from_le_bytes(self.raw(expected)?)) } else { self.text(expected) }
     }
 
-    /// A word in double quotes; what is not UTF-8 becomes the replacement character.
+    /// A word in double quotes. Bytes that are not UTF-8 become the replacement character.
     pub fn quoted(&mut self, expected: &str) -> Result<String, MshError> {
         while let [b' ' | b'\t', ..] = self.rest() {
             self.at += 1;
@@ -212,7 +212,7 @@ impl<'a> Cursor<'a> {
         Err(self.unexpected(expected))
     }
 
-    /// Opens the next section: its name with `$`, or nothing at the end of the file.
+    /// Opens the next section and returns its name with `$`, or `None` at the end of the file.
     pub fn open_section(&mut self) -> Result<Option<String>, MshError> {
         self.skip_space();
         if self.rest().is_empty() {
@@ -238,7 +238,7 @@ impl<'a> Cursor<'a> {
         format!("$End{}", self.section.trim_start_matches('$'))
     }
 
-    /// Reads the end mark of the present section.
+    /// Reads the end mark of the current section.
     pub fn close_section(&mut self) -> Result<(), MshError> {
         let expected = self.end_mark();
         self.skip_space();
@@ -251,7 +251,7 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// Skips a section that is of no use here.
+    /// Skips a section that is not used.
     pub fn skip_section(&mut self) -> Result<(), MshError> {
         let expected = self.end_mark();
         let start = self.at;

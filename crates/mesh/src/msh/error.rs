@@ -1,11 +1,11 @@
-//! What can be wrong with a `.msh` file, and where.
+//! Errors in a `.msh` file, with their position.
 
 use std::fmt;
 use std::path::PathBuf;
 
 use super::OtherFormat;
 
-/// A place in a mesh file.
+/// A position in a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilePosition {
     /// Line of a text file, counted from 1.
@@ -23,17 +23,17 @@ impl fmt::Display for FilePosition {
     }
 }
 
-/// A `.msh` file that cannot be read: which file, which section, where in it, and why.
+/// A `.msh` file that cannot be read: path, section, position and cause.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {section}, {place}: {problem}", path.display())]
 pub struct MshError {
-    /// The file, as the caller named it.
+    /// Path of the file, as given by the caller.
     pub path: PathBuf,
     /// The section being read, such as `$Nodes`.
     pub section: String,
-    /// Line (text) or byte (binary) where reading stopped.
+    /// Line (text) or byte (binary) at which reading stopped.
     pub place: FilePosition,
-    /// What is wrong there.
+    /// What is wrong at this position.
     pub problem: MshProblem,
 }
 
@@ -54,21 +54,21 @@ impl MshError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MshProblem {
-    /// A file of another format.
+    /// The file has another format.
     #[error("is {}, and no Gmsh mesh", kind.name())]
     Other {
-        /// Which.
+        /// The format.
         kind: OtherFormat,
     },
-    /// Something else stands where the format asks for `expected`.
+    /// The format requires `expected`, but something else was found.
     #[error("expected {expected}, found {found}")]
     Syntax {
-        /// What the format asks for.
+        /// What the format requires.
         expected: String,
-        /// What stands there.
+        /// What was found.
         found: String,
     },
-    /// A count that the rest of the file cannot hold.
+    /// A count that is too large for the rest of the file.
     #[error("{declared} {what} declared, but the rest of the file has room for {room} at most")]
     TooMany {
         /// What is counted.
@@ -78,14 +78,14 @@ pub enum MshProblem {
         /// Largest count that fits.
         room: u64,
     },
-    /// A total that differs from the sum of its blocks.
+    /// A total that differs from the sum over its blocks.
     #[error("{declared} {what} declared, {found} found")]
     WrongTotal {
         /// What is counted.
         what: &'static str,
         /// Count given in the file.
         declared: u64,
-        /// Count of what is there.
+        /// Number of items found.
         found: u64,
     },
     /// A version of the format other than 2.x and 4.1.
@@ -94,10 +94,10 @@ pub enum MshProblem {
         /// Version named in the file.
         found: String,
     },
-    /// Binary data of the other byte order.
+    /// Binary data with the other byte order.
     #[error("the file was written on a big-endian machine")]
     BigEndian,
-    /// An element type the program has no element for.
+    /// An element type that this program does not support.
     #[error("element type {code} ({name}) is not supported")]
     ElementType {
         /// Gmsh's number of the type.
@@ -113,7 +113,7 @@ pub enum MshProblem {
         /// The value found.
         value: f64,
     },
-    /// Two nodes of one tag.
+    /// Two nodes with the same tag.
     #[error("node {tag} is defined twice")]
     RepeatedNode {
         /// The tag.
@@ -135,13 +135,13 @@ pub enum MshProblem {
         /// Tag of the entity.
         tag: i64,
     },
-    /// A required section that is not there.
+    /// A required section that is missing.
     #[error("the file has no {name} section")]
     NoSection {
         /// Name of the section.
         name: &'static str,
     },
-    /// A section that comes twice.
+    /// A section that occurs twice.
     #[error("a second {name} section")]
     RepeatedSection {
         /// Name of the section.
@@ -150,10 +150,10 @@ pub enum MshProblem {
     /// A file without volume elements.
     #[error("the file has no volume elements, only {elements} of lower dimension")]
     NoVolumes {
-        /// Number of faces found.
+        /// Number of face elements found.
         elements: usize,
     },
-    /// A surface group that lies partly on a body that is not part of the mesh.
+    /// A surface group that lies partly on a body that is not in the mesh.
     #[error("face {face} of group `{group}` uses node {node}, which no volume element of the model uses")]
     FaceOffBody {
         /// Name of the group.

@@ -1,4 +1,4 @@
-//! Gmsh's mesh files (`.msh`), formats 2.2 and 4.1, text and binary: in and out.
+//! Reads and writes Gmsh's mesh files (`.msh`), formats 2.2 and 4.1, text and binary.
 
 mod build;
 mod cursor;
@@ -24,13 +24,13 @@ use crate::{Mesh, MeshError};
 impl Mesh {
     /// Reads a Gmsh mesh file of format 2.2 or 4.1, text or binary.
     ///
-    /// Taken are the volume elements that lie in a physical volume (all, where there is none),
-    /// each once, the nodes they use, and the physical surfaces by name. Groups without a name
-    /// bear their tag in digits. Nodes and elements stand in ascending order of their tags.
+    /// The mesh gets the volume elements that lie in a physical volume (all of them if there is no physical volume),
+    /// each once, the nodes that they use, and the physical surfaces by name. A group without a name is named by its
+    /// tag in digits. Nodes and elements are sorted by their tags.
     ///
     /// # Errors
-    /// [`MeshError::Read`] when the file cannot be opened or is no regular file, [`MeshError::Msh`] with section and
-    /// line or byte when it cannot be understood.
+    /// [`MeshError::Read`] if the file cannot be opened or is not a regular file; [`MeshError::Msh`] with section and
+    /// line or byte if it cannot be parsed.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
         let bytes =
@@ -38,7 +38,7 @@ impl Mesh {
         Self::parse(&bytes, path)
     }
 
-    /// The mesh in the content of a file, see [`Mesh::read`]; `path` is for messages alone.
+    /// Parses the content of a mesh file, see [`Mesh::read`]; `path` is only used in messages.
     ///
     /// # Errors
     /// [`MeshError::Msh`] with section and line or byte.

@@ -1,8 +1,8 @@
-//! Files of other programs that are handed over in place of a mesh, known by how they begin.
+//! Files of other programs given instead of a mesh, recognised by their first bytes.
 
 use std::path::Path;
 
-/// A format that is no Gmsh mesh.
+/// A file format that is not Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OtherFormat {
     /// ISO 10303-21: solids of a CAD program.
@@ -26,7 +26,7 @@ const SECTION_OF_IGES: usize = 72;
 const RECORD_OF_IGES: usize = 80;
 
 impl OtherFormat {
-    /// The format of a file that begins with some bytes; `None` for what may be a Gmsh mesh, or is unknown.
+    /// The format of a file, recognised by its first bytes. `None` if it may be a Gmsh mesh or is unknown.
     pub fn of(bytes: &[u8]) -> Option<Self> {
         let first = bytes.split(|b| *b == b'\n').next().unwrap_or_default();
         let first = first.strip_suffix(b"\r").unwrap_or(first);
@@ -46,7 +46,7 @@ impl OtherFormat {
         known.iter().find(|(_, all)| all.iter().any(|with| begins(with))).map(|(kind, _)| *kind)
     }
 
-    /// Name of the format, in words.
+    /// Name of the format for messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Step => "a CAD file (STEP)",

@@ -1,4 +1,4 @@
-//! The sections of a `.msh` file, in whatever order they come.
+//! The sections of a `.msh` file, in any order.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What a `.msh` file says, before a model is made of it: the same for every flavour.
+//! Content of a `.msh` file before it becomes a model; the same for every version and encoding.
 
 use std::collections::BTreeMap;
 
@@ -61,7 +61,7 @@ pub(super) enum Shape {
 }
 
 impl Shape {
-    /// The shape of Gmsh's element type `code`.
+    /// The element shape of Gmsh's element type `code`.
     pub fn of_type(code: i64, cursor: &Cursor) -> Result<Self, MshError> {
         let small = i32::try_from(code).unwrap_or(-1);
         if let Some(kind) = ElementKind::from_gmsh_type(small) {

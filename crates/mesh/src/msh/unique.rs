@@ -1,4 +1,4 @@
-//! Elements that are the same but for their tag.
+//! Finds elements that are equal except for their tag.
 
 /// Numbers of the elements of `connectivity` (`size` nodes each) that are the first of their
 /// node set, ascending. n log n in the number of elements.

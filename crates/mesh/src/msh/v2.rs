@@ -1,4 +1,4 @@
-//! Nodes and elements of format 2.2: one number at a time, groups beside each element.
+//! Nodes and elements of format 2.2: one record per item, groups stored with each element.
 
 use std::collections::BTreeMap;
 

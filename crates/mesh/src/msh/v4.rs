@@ -1,4 +1,4 @@
-//! Entities, nodes and elements of format 4.1: blocks of one entity, groups at the entity.
+//! Entities, nodes and elements of format 4.1: one block per entity, groups stored with the entity.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Which node of one cut falls on which node of the other.
+//! Pairs each node of one cut with a node of the other.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! From a sector of one tooth to the whole gear.
+//! Makes the whole gear from a sector of one tooth.
 //!
 //! ```text
 //!         cut_1          copy k is the sector turned by k 2 pi / z about z. Node i of cut_0 in copy k
@@ -20,70 +20,73 @@ use crate::{Face, Mesh, MeshError, MeshedGear, SurfaceGroup};
 use cuts::{NO_PARTNER, partners};
 use numbers::Numbers;
 
-/// Some copies of a periodic sector.
+/// Several copies of a periodic sector.
 #[derive(Debug, Clone)]
 pub struct Copies {
     /// The copies as one mesh.
     pub gear: MeshedGear,
-    /// Where each of its nodes comes from.
+    /// Origin of each node in the sector.
     pub origins: Vec<Origin>,
-    /// Which node of the sector's first cut falls on which one of the second when it is turned by one pitch, ascending.
+    /// Pairs of nodes: a node of the sector's first cut, and the node of the second cut with which it coincides after a
+    /// rotation by one pitch. Ascending.
     pub cuts: Vec<[u32; 2]>,
-    /// Whether the sector has nodes on the axis, which belong to all copies.
+    /// Whether the sector has nodes on the axis, which all copies share.
     pub on_axis: bool,
 }
 
-/// A node of some copies of a sector.
+/// Origin of a node of the copies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Origin {
-    /// Copy, 0 .. z-1.
+    /// Number of the copy, 0 .. z-1.
     pub copy: u32,
-    /// Node of the sector, never one that lies on its second cut alone: that one is a node of the next copy's first
-    /// cut.
+    /// Node of the sector. It never lies only on the second cut: such a node is a node of the first cut of the next
+    /// copy.
     pub node: u32,
 }
 
 impl MeshedGear {
-    /// The whole gear where this is a periodic sector of one tooth, by [`MeshedGear::replicate`]; else itself.
+    /// The whole gear: for a periodic sector of one tooth, the result of [`MeshedGear::replicate`]; otherwise the mesh
+    /// itself.
     ///
-    /// A sector of one tooth has both cuts and at most one flank of either side. Sectors of several teeth
-    /// are used with free cuts.
+    /// A sector of one tooth has both cuts and at most one flank on either side. Sectors of several teeth are used with
+    /// free cuts.
     ///
     /// # Errors
-    /// Those of [`MeshedGear::replicate`].
+    /// The errors of [`MeshedGear::replicate`].
     pub fn whole(self) -> Result<Self, MeshError> {
         if self.is_periodic_sector() { self.replicate() } else { Ok(self) }
     }
 
-    /// Whether the mesh has both cuts and at most one flank of either side.
+    /// Whether the mesh has both cuts and at most one flank on either side.
     pub fn is_periodic_sector(&self) -> bool {
         let one = |side| self.flanks.keys().filter(|k| k.1 == side).count() <= 1;
         self.cuts.is_some() && one(Side::Left) && one(Side::Right)
     }
 
-    /// z copies of a periodic sector, copy k turned by k 2 pi / z about z, the other way where teeth are numbered clockwise, nodes of adjoining cuts merged.
+    /// z copies of a periodic sector, nodes of adjoining cuts merged. Copy k is rotated by k 2 pi / z about z, in the
+    /// opposite direction if teeth are numbered clockwise.
     ///
-    /// Nodes and elements: those of copy 0 (the sector less the nodes of its first cut) in their order, then those of
-    /// copy 1, ...; tags 1, 2, ... Tooth t of the sector is tooth t + k of copy k. Surface groups: the bore, the flanks
-    /// under the names `flank_left_<k>` and `flank_right_<k>`, and all others of the sector but the cuts.
+    /// Nodes and elements of copy 0 (the sector without the nodes of its first cut) come first, in their order, then
+    /// those of copy 1, and so on; tags are 1, 2, ... Tooth t of the sector becomes tooth t + k of copy k. Surface
+    /// groups are the bore, the flanks with the names `flank_left_<k>` and `flank_right_<k>`, and all other groups of
+    /// the sector except the cuts.
     ///
     /// # Errors
-    /// [`MeshError::NoCuts`]; [`MeshError::CutsApart`] when a node of one cut, turned, is farther than 1e-9 of the
-    /// largest radius from every node of the other; [`MeshError::CutFaces`] when nodes meet but faces do not;
-    /// [`MeshError::CutInPart`] when the cuts' groups lack faces; [`MeshError::TooLarge`] past 20 million nodes.
+    /// [`MeshError::NoCuts`]; [`MeshError::CutsApart`] if a rotated node of one cut is farther than 1e-9 of the largest
+    /// radius from every node of the other; [`MeshError::CutFaces`] if nodes coincide but faces do not;
+    /// [`MeshError::CutInPart`] if the groups of the cuts lack faces; [`MeshError::TooLarge`] above 20 million nodes.
     pub fn replicate(&self) -> Result<Self, MeshError> {
         Ok(self.copies(0, self.teeth)?.gear)
     }
 
-    /// `count` copies of a periodic sector from copy `first` (modulo z) on, as [`MeshedGear::replicate`] makes all of
-    /// them.
+    /// `count` copies of a periodic sector, starting at copy `first` (modulo z), made as in [`MeshedGear::replicate`].
     ///
-    /// Fewer than z copies have the first cut of their first copy and the second of their last one; nodes of the first
-    /// one follow after those of all copies, and tags are those of the sector, so that a node is named by its tooth and
-    /// by the tag it has in the sector's file.
+    /// Fewer than z copies keep two cuts: the first cut of their first copy and the second cut of their last one. Nodes
+    /// of that first cut come after those of all copies. Tags are those of the sector, so a node is identified by its
+    /// tooth and by its tag in the sector's file.
     ///
     /// # Errors
-    /// Those of [`MeshedGear::replicate`].
+    /// The errors of [`MeshedGear::replicate`].
     pub fn copies(&self, first: u32, count: u32) -> Result<Copies, MeshError> {
         let Some([from, to]) = &self.cuts else { return Err(MeshError::NoCuts) };
         let teeth = self.teeth.max(1);

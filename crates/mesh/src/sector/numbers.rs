@@ -1,4 +1,4 @@
-//! Numbers that the nodes of a sector have in its copies.
+//! Numbers of the sector's nodes in its copies.
 
 use std::collections::BTreeMap;
 

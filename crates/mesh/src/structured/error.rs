@@ -1,34 +1,34 @@
-//! What can keep a gear from being meshed.
+//! Reasons for which a gear cannot be meshed.
 
-/// Why the structured mesher gives no mesh.
+/// Errors of the structured mesher.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StructuredError {
-    /// Only linear and quadratic elements exist.
+    /// The order is neither linear nor quadratic.
     #[error("order = {order}: elements are of order 1 or 2")]
     Order {
-        /// Order asked for.
+        /// Order requested.
         order: u32,
     },
-    /// A number of elements without meaning.
+    /// A number of elements that is too small.
     #[error("{name} = {value}: at least {least}, at most 10000")]
     Count {
         /// Name of the option.
         name: &'static str,
         /// Value of the option.
         value: u32,
-        /// Least value.
+        /// Smallest permitted value.
         least: u32,
     },
-    /// A sector of no teeth, or of all.
+    /// A sector of zero teeth, or of all teeth.
     #[error("a sector of {teeth} teeth cannot be cut from a gear of {gear_teeth}")]
     Sector {
-        /// Teeth asked for.
+        /// Number of teeth requested.
         teeth: u32,
-        /// Teeth of the gear.
+        /// Number of teeth of the gear.
         gear_teeth: u32,
     },
-    /// The bore reaches the tooth's neck.
+    /// The bore is too close to the fillets: it reaches the neck between tooth and rim.
     #[error("bore diameter {bore_diameter_mm:.3} mm leaves too thin a rim: at most {largest_mm:.3} mm can be meshed")]
     RimTooThin {
         /// Bore diameter, mm.
@@ -36,40 +36,40 @@ pub enum StructuredError {
         /// Largest bore diameter that can be meshed, mm.
         largest_mm: f64,
     },
-    /// Too few elements along the face of a steep helix: they would be wrung out.
+    /// Too few elements along the face for a steep helix: the elements would be twisted too much.
     #[error("elements_face = {elements_face}: each layer would turn by {turn_deg:.1} deg, at most {most_deg:.1}")]
     Twist {
-        /// Elements along the face asked for.
+        /// Elements along the face requested.
         elements_face: u32,
-        /// Turn of the section over one element, deg.
+        /// Rotation of the section over one element, deg.
         turn_deg: f64,
         /// Limit, deg.
         most_deg: f64,
-        /// Elements along the face that suffice.
+        /// Elements along the face that are sufficient.
         least: u32,
     },
-    /// The shape cannot be filled with sound elements.
+    /// The shape cannot be filled with valid elements.
     #[error(
         "element in column {column}, row {row} of the {block} is too distorted: \
          scaled Jacobian {scaled_jacobian:.3}, at least {least} needed"
     )]
     Distorted {
-        /// `tooth` (rows from the tip, columns from the right flank) or `rim` (rows from the fillet, columns from cut
-        /// to cut).
+        /// Part of the mesh: `tooth` (rows from the tip, columns from the right flank) or `rim` (rows from the fillet,
+        /// columns from cut to cut).
         block: &'static str,
         /// Row, from 0.
         row: usize,
         /// Column, from 0.
         column: usize,
-        /// Worst scaled Jacobian at its nodes.
+        /// Worst scaled Jacobian at the nodes of the element.
         scaled_jacobian: f64,
         /// Limit.
         least: f64,
     },
-    /// More nodes than anything here could solve.
+    /// The mesh would have more nodes than can be solved.
     #[error("the mesh would have up to {nodes} nodes: at most {most} are made")]
     TooLarge {
-        /// Nodes asked for, from above.
+        /// Nodes requested, an upper estimate.
         nodes: u128,
         /// Limit.
         most: u32,

@@ -1,5 +1,5 @@
-//! Structured hexahedral mesh of a gear: one tooth's transverse section, turned from tooth to tooth and twisted along
-//! the helix.
+//! Structured hexahedral mesh of a gear: the transverse section of one tooth, rotated from tooth to tooth and twisted
+//! along the helix.
 //!
 //! ```text
 //!        tip                 tooth block: columns across, rows from the tip down to the neck
@@ -11,10 +11,11 @@
 //!  +-----bore-----+
 //! ```
 //!
-//! A ring is the same with its rim outside and its teeth inside: radii and angles of its section are negative ([`geometry::TransverseProfile`]), and `bore`, which holds the gear, is its outside.
-//! Flank nodes, mid-side nodes included, lie on the exact helicoid; all teeth are exact copies of one.
-//! Groups: `bore`, `side_front` (z = +b/2), `side_back`, `flank_left_<k>`, `flank_right_<k>` (tip circle to root form
-//! circle), `cut_0` (towards the tooth before) and `cut_1` where the gear is not whole.
+//! A ring is meshed in the same way with its rim outside and its teeth inside. Radii and angles of its section are
+//! negative ([`geometry::TransverseProfile`]), and its `bore`, the surface that holds the gear, is its outer surface.
+//! Flank nodes, including mid-side nodes, lie on the exact helicoid; all teeth are exact copies of one. Groups: `bore`,
+//! `side_front` (z = +b/2), `side_back`, `flank_left_<k>`, `flank_right_<k>` (tip circle to root form circle), and, if
+//! the gear is not whole, `cut_0` (towards the preceding tooth) and `cut_1`.
 
 mod error;
 mod face_elements;
@@ -34,14 +35,14 @@ use crate::Mesh;
 use outline::Outline;
 use section::Section;
 
-/// Meshes a gear in its own frame (axis +z, tooth 0's centre line at mid-face on +x), lengths in mm.
+/// Meshes a gear in its own frame (axis +z, centre line of tooth 0 at mid-face on +x), lengths in mm.
 ///
 /// # Errors
-/// [`StructuredError`]: counts without meaning, a rim too thin for the bore, a layer that turns too far, an element
-/// with a scaled Jacobian below 0.1, more than 20 million nodes.
+/// [`StructuredError`]: a count that is too small, a rim too thin for the bore, a layer that rotates too far, an
+/// element with a scaled Jacobian below 0.1, more than 20 million nodes.
 ///
 /// # Example
-/// One tooth, one element along the face: every node of a hex8 section occurs twice.
+/// One tooth with one element along the face: every node of a hex8 section occurs twice.
 /// ```
 /// # use mesh::{Extent, StructuredOptions, generate};
 /// let gear = geometry::Gear::new(geometry::GearData::default())?;

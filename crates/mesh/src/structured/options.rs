@@ -1,4 +1,4 @@
-//! How a gear is to be meshed.
+//! Options of the structured mesher.
 
 use super::StructuredError;
 use crate::ElementKind;
@@ -12,16 +12,17 @@ pub enum Extent {
     /// All z teeth, no cut faces.
     #[default]
     Whole,
-    /// Tooth 0 alone; `cut_1` is `cut_0` turned by 2 pi / z, node by node.
+    /// Only tooth 0; `cut_1` is `cut_0` rotated by 2 pi / z, node by node.
     Periodic,
-    /// k teeth about tooth 0, cut faces free; clockwise teeth count down: k = 3 gives -1, 0, 1.
+    /// k teeth about tooth 0 with free cut faces. If teeth are numbered clockwise, the range is counted downwards: k =
+    /// 3 gives -1, 0, 1.
     Sector(u32),
 }
 
-/// Element kind and counts of the structured mesh.
+/// Element kind and element counts of the structured mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StructuredOptions {
-    /// 1: hex8, 2: hex20.
+    /// Element order: 1 for hex8, 2 for hex20.
     pub order: u32,
     /// Elements along the flank, from the tip circle to the root form circle.
     pub elements_profile: u32,
@@ -33,7 +34,7 @@ pub struct StructuredOptions {
     pub elements_face: u32,
     /// Elements from the fillet to the bore.
     pub elements_rim: u32,
-    /// How much of the gear.
+    /// Part of the gear that is meshed.
     pub extent: Extent,
 }
 
@@ -54,7 +55,7 @@ impl Default for StructuredOptions {
 }
 
 impl StructuredOptions {
-    /// The element kind of that order.
+    /// The element kind of this order.
     pub fn kind(&self) -> ElementKind {
         if self.order == 1 { ElementKind::Hex8 } else { ElementKind::Hex20 }
     }

@@ -18,7 +18,7 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// Even arc lengths on each of flank, throat (form circle to neck) and foot.
+    /// Divides each of flank, throat (form circle to neck) and foot into equal arc lengths.
     pub fn new(gear: &Gear, options: &StructuredOptions) -> Self {
         let profile = gear.profile();
         let order = options.order as usize;
@@ -44,7 +44,7 @@ impl Outline {
         Self { side, foot }
     }
 
-    /// Where tooth block and rim block meet the fillet.
+    /// The neck: where tooth block and rim block meet the fillet.
     pub fn neck(&self) -> Polar {
         self.foot[0]
     }

@@ -1,4 +1,4 @@
-//! Are the elements of one tooth sound? All teeth and all layers are turned copies of each other.
+//! Checks the element shapes of one tooth. All teeth and all layers are rotated copies of each other.
 
 use geometry::Gear;
 

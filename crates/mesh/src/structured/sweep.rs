@@ -1,4 +1,4 @@
-//! From the section to the mesh: numbers, positions, elements, groups.
+//! Makes the mesh from the section: numbers, positions, elements, groups.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! Compliance of a window of alike teeth, tooth by tooth.
+//! Compliance of a window of identical teeth, tooth by tooth.
 
 use faer::Mat;
 

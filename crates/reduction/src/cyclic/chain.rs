@@ -1,4 +1,4 @@
-//! Identical super-elements joined by doubling.
+//! Joins identical super-elements by doubling.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
-//! One sector instead of a gear.
+//! Condensation of a cyclic gear from one of its sectors.
 //!
-//! All teeth of a sound gear are the same, in frames turned by 2 pi / z. One sector is condensed once ([`sector`]); the
-//! others are equal super-elements, joined by doubling ([`chain`]), and close the ring about it:
+//! All teeth of a gear without defects are equal in frames that are rotated by 2 pi / z. One sector is condensed once
+//! ([`sector`]). The others are equal super-elements; they are joined by doubling ([`chain`]) and close the ring:
 //!
 //! ```text
 //!   c_0   c_1                     K_ring u_c = H f                    (two cuts, f on the sector between them)
@@ -9,9 +9,10 @@
 //!    |     |                      B_d = delta_d0 A + H' u_c(d)        (of the loads d sectors on)
 //!    +chain+    z - 1 sectors     u = X f + T u_c in every sector
 //! ```
-//! Loads on any sector are loads on the first one, turned: the compliance of a window of teeth is made of the blocks
-//! B_d = B_-d', which one tooth's loads tell. The result is the condensation of the whole gear to round-off, at the
-//! cost of one sector. Nothing is approximated: cuts are eliminated as any other freedom is.
+//! Loads on any sector are rotated loads on the first one. So the compliance of a window of teeth consists of the
+//! blocks B_d = B_-d', which follow from the loads of one tooth. The result equals the condensation of the whole gear
+//! to round-off, at the cost of one sector. Nothing is approximated: the degrees of freedom of the cuts are eliminated
+//! like any others.
 
 mod blocks;
 mod chain;

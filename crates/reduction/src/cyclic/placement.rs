@@ -1,4 +1,4 @@
-//! In which copies of the sector do the loads stand, and which of them are the same?
+//! Assigns loads to copies of the sector, and finds copies with equal loads.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Back from the loads to fields and mass of any sector.
+//! Recovers fields and mass of any sector from the loads.
 
 use faer::{Mat, MatRef};
 use mesh::{Face, Origin};

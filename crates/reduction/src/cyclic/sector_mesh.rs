@@ -1,4 +1,4 @@
-//! One sector of a cyclic gear, and where the nodes of a larger mesh are in its copies.
+//! One sector of a cyclic gear, and the positions of a larger mesh's nodes in its copies.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Stress at nodes of a cyclic gear, known by what one sector's loads do to the sectors about it.
+//! Stress at nodes of a cyclic gear, from the effect of one sector's loads on the sectors around it.
 
 use std::sync::Arc;
 

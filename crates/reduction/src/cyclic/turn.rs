@@ -1,4 +1,4 @@
-//! Is a gear the same after a turn by one pitch?
+//! Tests whether a gear is invariant under rotation by one pitch.
 
 use std::{
     collections::HashMap,

@@ -1,12 +1,13 @@
-//! A cyclic gear that vibrates: the sector's inertia, and the stiffness of the whole ring by harmonics. Theory (59).
+//! Vibration of a cyclic gear: the inertia of the sector, and the stiffness of the whole ring by harmonics. Theory
+//! (59).
 //!
 //! ```text
 //! u_k = e^{i psi k} u_0,  psi = 2 pi n / z          n waves about the axis; u_k in the frame of sector k
 //! K_n = K_ll + K_rr + e^{i psi} K_lr + e^{-i psi} K_rl       of a cut, Hermitian
 //! K^-1 f:  K_n u_c = f_l + e^{-i psi} f_r,   u = X f + T [u_c; e^{i psi} u_c]
 //! ```
-//! One factor of one sector serves all harmonics; each has a dense factor of the size of a cut besides. Complex vectors
-//! are pairs of real ones, one above the other.
+//! One factor of one sector serves all harmonics; each harmonic also has a dense factor of the size of a cut. Complex
+//! vectors are stored as pairs of real ones, the imaginary part below the real part.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Vectors of unit mass, each orthogonal to all others.
+//! Vectors that are orthonormal with respect to the mass matrix.
 
 use faer::{Mat, MatRef};
 use fem::dense;
@@ -24,7 +24,7 @@ impl Basis {
         self.size
     }
 
-    /// M times the vectors appended last.
+    /// M times the vectors that were appended last.
     pub fn inertia_of_last(&self) -> MatRef<'_, f64> {
         self.inertia.last().map_or(MatRef::from_column_major_slice(&[], 0, 0), |m| m.as_ref())
     }
@@ -56,7 +56,7 @@ impl Basis {
         sum
     }
 
-    /// Appends what of the columns of `x` is not yet spanned; how many vectors that is.
+    /// Appends the components of the columns of `x` that are not yet spanned; returns the number of vectors appended.
     pub fn append(&mut self, pencil: &dyn Pencil, mut x: Mat<f64>) -> Result<usize, ReductionError> {
         let mut inertia = pencil.inertia(x.as_ref())?;
         let norm = |x: &Mat<f64>, m: &Mat<f64>, j: usize| (x.col(j).transpose() * m.col(j)).max(0.0).sqrt();

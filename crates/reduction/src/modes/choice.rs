@@ -1,17 +1,17 @@
-//! How many modes, and where to stop among several of one frequency.
+//! Number of modes, and how modes of equal frequency are counted.
 
 use std::f64::consts::TAU;
 
 use super::krylov::Until;
 
-/// Which normal modes are kept.
+/// Selection of the normal modes to keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ModeChoice {
-    /// The lowest so many. Modes of the same frequency stay together, so there may be one more.
+    /// This number of lowest modes. Modes of equal frequency stay together, so there may be one more.
     Count(usize),
-    /// All up to a frequency, Hz.
+    /// All modes up to a frequency.
     Below {
-        /// Bound, Hz.
+        /// Upper limit, Hz.
         hz: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! Constraint modes and fixed-boundary modes: the flanks' own inertia kept. Theory (60).
+//! Constraint modes and fixed-boundary modes, which keep the inertia of the flanks. Theory (60).
 
 use faer::Mat;
 use fem::dense;
@@ -17,20 +17,20 @@ use crate::{GearReducer, ReductionError, load::Load, reducer::Method};
 const MOST_COORDINATES: usize = 6000;
 
 impl GearReducer {
-    /// Normal modes of the gear as its flanks and some fixed-boundary modes know it.
+    /// Normal modes of the gear in the space of its flank coordinates and several fixed-boundary modes.
     ///
     /// ```text
     /// u = Psi u_B + Phi_f eta,   K^ = diag(C_B^-1, Omega_f^2),   M^ = [Psi Phi_f]' M [Psi Phi_f]
     /// ```
-    /// B: the kept flanks of **every** tooth, so that the result is the gear's own and not a window's; Psi: constraint
-    /// modes of a cyclic gear by harmonics, of any other one all at once. Phi_f: the `fixed` lowest modes with these
-    /// flanks held, of every harmonic (of a gear that is not cyclic: in all). The eigenvectors of (K^, M^) are what is
-    /// returned: their frequencies come down to the gear's with the number of fixed modes, and all of them together
-    /// have the flanks' whole compliance and their consistent mass. Source: Craig and Bampton, AIAA J. 6(7), 1968,
-    /// p. 1313.
+    /// B are the kept flanks of **every** tooth, so the result belongs to the gear and not to a window. Psi are the
+    /// constraint modes, by harmonics for a cyclic gear, all at once for any other. Phi_f are the `fixed` lowest modes
+    /// with these flanks held, per harmonic (for a gear that is not cyclic: in total). The method returns the
+    /// eigenvectors of (K^, M^). Their frequencies converge to those of the gear from above as the number of fixed
+    /// modes grows. All of them together have the full compliance of the flanks and their consistent mass. Source:
+    /// Craig and Bampton, AIAA J. 6(7), 1968, p. 1313.
     ///
     /// # Errors
-    /// [`ReductionError::LargeBoundary`]; as [`GearReducer::modes`] and [`GearReducer::lowest_frequencies`].
+    /// [`ReductionError::LargeBoundary`]; those of [`GearReducer::modes`] and [`GearReducer::lowest_frequencies`].
     pub fn craig_bampton_modes(&self, choice: ModeChoice, fixed: usize) -> Result<GearModes, ReductionError> {
         match self.method()? {
             Method::Cyclic(cyclic) => {

@@ -1,4 +1,4 @@
-//! The normal modes of one gear, and what its motion needs of them.
+//! Normal modes of one gear, and the quantities that its equations of motion need.
 
 use std::f64::consts::TAU;
 
@@ -17,15 +17,15 @@ use super::{
 };
 use crate::{GearReducer, ReductionError, Window, cyclic::VibratingSector, reducer::Method};
 
-/// Normal modes of a gear that is held at its bore, its flanks free.
+/// Normal modes of a gear with its bore held and its flanks free.
 ///
 /// ```text
 /// u(x, t) = sum_j phi_j(x) q_j(t),   phi_i' M phi_j = delta_ij,   phi_i' K phi_j = omega_i^2 delta_ij
 /// q in mm t^(1/2)
 /// ```
-/// Shapes are in the gear's own frame, in which tooth 0 is always the same: coordinates do not change as a window
-/// moves. Their motion is that of a gear which turns slowly against them: terms of the order of the angular velocity
-/// over omega are left out.
+/// Shapes are in the gear's own frame, in which tooth 0 is always the same, so coordinates do not change when a window
+/// moves. The gear is treated as rotating slowly relative to its modes: terms of the order of the angular velocity over
+/// omega are neglected.
 #[derive(Debug, Clone)]
 pub struct GearModes {
     squares: Vec<f64>,
@@ -52,7 +52,8 @@ pub(super) const HARMONIC_BLOCK: usize = 4;
 impl GearReducer {
     /// Normal modes of the gear with its bore held and all flanks free.
     ///
-    /// A cyclic gear's come from one sector, harmonic by harmonic; any other one's from the factor of the whole gear.
+    /// The modes of a cyclic gear are computed from one sector, harmonic by harmonic; those of any other gear from the
+    /// factor of the whole gear.
     ///
     /// # Errors
     /// [`ReductionError::ModesNotConverged`]; [`ReductionError::Fem`].
@@ -69,11 +70,11 @@ impl GearReducer {
 }
 
 impl GearReducer {
-    /// Whether another reducer has the same body, reduced the same way: their modes are of one gear, whichever flanks
-    /// either is reduced to.
+    /// Whether another reducer has the same body, reduced by the same method. Then their modes belong to the same gear,
+    /// even if the two are reduced to different flanks.
     ///
     /// # Errors
-    /// [`ReductionError::Fem`] where a stored reduction has to be made anew.
+    /// [`ReductionError::Fem`] if a stored reduction must be computed again.
     pub fn has_body_of(&self, other: &Self) -> Result<bool, ReductionError> {
         let alike = self.material() == other.material() && self.elements() == other.elements();
         Ok(alike
@@ -268,7 +269,8 @@ impl GearModes {
         self.squares.iter().map(|s| s.sqrt() / TAU).collect()
     }
 
-    /// Number of waves about the axis of each mode (nodal diameters); `None` for a gear that is not known by sectors.
+    /// Number of waves around the axis of each mode (nodal diameters); `None` for a gear that is not condensed by
+    /// sectors.
     pub fn waves(&self) -> Option<&[u32]> {
         self.waves.as_deref()
     }
@@ -281,21 +283,22 @@ impl GearModes {
         }
     }
 
-    /// Phi' M R: inertia that each mode shares with motion of the gear as a rigid body about its centre, along x, y, z
-    /// (t^(1/2)) and about x, y, z (t^(1/2) mm) of the gear's own frame.
+    /// Phi' M R: inertia that each mode shares with rigid motion of the gear about its centre, along x, y, z (t^(1/2))
+    /// and about x, y, z (t^(1/2) mm) of the gear's own frame.
     ///
-    /// For a cyclic gear modes without waves go with z and the turn, those of one wave with x, y and the tilts, all
-    /// others with nothing.
+    /// In a cyclic gear, modes without waves couple with translation along z and rotation about z, modes with one wave
+    /// with x, y and the tilts. All other modes have no coupling.
     pub fn coupling(&self) -> &[[f64; 6]] {
         &self.coupling
     }
 
-    /// Phi_B: the modes on a window's coordinates, in the window's frame, 3 n_B x m, t^(-1/2).
+    /// Phi_B: the modes in the coordinates of a window, in the window's frame, 3 n_B x m, t^(-1/2).
     ///
-    /// `reducer`: the one the modes are of, or another of the same gear reduced the same way to other flanks.
+    /// `reducer` is the one from which the modes come, or another one of the same gear, reduced by the same method to
+    /// other flanks.
     ///
     /// # Errors
-    /// [`ReductionError::OtherGear`] when it is not.
+    /// [`ReductionError::OtherGear`] if it is neither.
     pub fn on_window(&self, reducer: &GearReducer, window: &Window) -> Result<Mat<f64>, ReductionError> {
         let loads = reducer.loads(window)?;
         let mut shapes = Mat::zeros(3 * loads.len(), self.count());
@@ -309,10 +312,10 @@ impl GearModes {
         Ok(shapes)
     }
 
-    /// Displacement (t^(-1/2)) of every node of the reducer's mesh in one mode, gear's own frame.
+    /// Displacement (t^(-1/2)) of every node of the reducer's mesh in one mode, in the gear's own frame.
     ///
     /// # Errors
-    /// [`ReductionError::OtherGear`]; [`ReductionError::WrongLength`] for a mode that is not there.
+    /// [`ReductionError::OtherGear`]; [`ReductionError::WrongLength`] for a mode that does not exist.
     pub fn field(&self, reducer: &GearReducer, mode: usize) -> Result<Vec<[f64; 3]>, ReductionError> {
         if mode >= self.count() {
             return Err(ReductionError::WrongLength { given: mode, wanted: self.count() });

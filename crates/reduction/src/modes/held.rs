@@ -1,4 +1,4 @@
-//! A body with some coordinates held.
+//! A body with several coordinates held.
 
 use faer::{Mat, MatRef};
 use fem::dense;
@@ -25,7 +25,7 @@ pub(super) struct Held<'a> {
 const COLUMNS: usize = 128;
 
 impl<'a> Held<'a> {
-    /// Holds the coordinates that `loads` work on.
+    /// Holds the coordinates on which `loads` do work.
     pub fn new(body: &'a dyn Pencil, loads: Vec<Rows>) -> Result<Self, ReductionError> {
         let n = loads.len();
         let mut compliance = Mat::<f64>::zeros(n, n);
@@ -38,7 +38,7 @@ impl<'a> Held<'a> {
         Self::with_compliance(body, loads, &compliance)
     }
 
-    /// Held body where C is known, mm/N.
+    /// The held body, if C is known, mm/N.
     pub fn with_compliance(
         body: &'a dyn Pencil,
         loads: Vec<Rows>,
@@ -47,8 +47,8 @@ impl<'a> Held<'a> {
         Ok(Self { body, factor: dense::cholesky(compliance.as_ref())?, loads })
     }
 
-    /// K^-1 P L^-T: motion of the body under forces on the coordinates alone, each of unit strain energy and none doing
-    /// work on another's.
+    /// K^-1 P L^-T: displacements of the body under forces on the held coordinates alone. Each force vector has unit
+    /// strain energy and does no work on the displacements of the others.
     pub fn constraint_modes(&self) -> Result<Mat<f64>, ReductionError> {
         let n = self.loads.len();
         let mut modes = Mat::zeros(n, self.order());

@@ -1,12 +1,12 @@
-//! Lowest frequencies of K phi = omega^2 M phi: block Lanczos on the inverse.
+//! Lowest frequencies of K phi = omega^2 M phi by a block Lanczos method on the inverse.
 //!
 //! ```text
 //! A = K^-1 M,   A V = V T + V_+ R E',   V' M V = 1        theta = 1 / omega^2 of T, the largest first
 //! |A phi - theta phi|_M = |R s_last|                       for phi = V s, T s = theta s
 //! ```
-//! A is self-adjoint in the inner product of M; all vectors are kept and made orthogonal twice, so that nothing comes
-//! up twice. Blocks of several columns find frequencies that are several times there, as those of a round body are.
-//! Source: R. G. Grimes, J. G. Lewis, H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228.
+//! A is self-adjoint in the inner product of M. All vectors are kept and orthogonalised twice, so no vector is found
+//! twice. Blocks of several columns find repeated frequencies, which axisymmetric bodies have. Source: R. G. Grimes, J.
+//! G. Lewis, H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228.
 
 use faer::Mat;
 use fem::dense;

@@ -1,4 +1,4 @@
-//! How slow is the slowest elastic motion of a gear?
+//! Lowest elastic frequency of a gear.
 
 use std::f64::consts::TAU;
 
@@ -12,14 +12,14 @@ use super::{
 };
 use crate::{GearReducer, ReductionError, Window, cyclic::CyclicGear, load::Load, reducer::Method};
 
-/// Lowest elastic frequencies of a gear that is held at its bore.
+/// Lowest elastic frequencies of a gear held at its bore.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LowestFrequencies {
-    /// With all flanks free, Hz: from here on the gear's compliance is not its static one any more.
+    /// With all flanks free, Hz. From this frequency on the gear's compliance differs from the static one.
     pub flanks_free_hz: f64,
     /// With the coordinates of the window held, Hz: the lowest fixed-boundary mode (Craig and Bampton, AIAA J. 6(7),
-    /// 1968, p. 1313), which bounds an approximation that keeps the inertia M^ of the window's coordinates. Never below
-    /// the other one.
+    /// 1968, p. 1313). It limits the validity of an approximation that keeps the inertia M^ of the window's
+    /// coordinates. Never below `flanks_free_hz`.
     pub flanks_held_hz: f64,
 }
 
@@ -27,11 +27,12 @@ pub struct LowestFrequencies {
 const BLOCK: usize = 6;
 
 impl GearReducer {
-    /// Lowest frequencies of the gear, its bore held, flanks free and those of the first window held.
+    /// Lowest frequencies of the gear with its bore held: with all flanks free, and with those of the first window
+    /// held.
     ///
     /// # Errors
-    /// As [`GearReducer::modes`]; [`ReductionError::NotPositiveDefinite`] for a grid with more nodes than the mesh can
-    /// tell apart.
+    /// Those of [`GearReducer::modes`]; [`ReductionError::NotPositiveDefinite`] for a grid with more nodes than the
+    /// mesh can resolve.
     pub fn lowest_frequencies(&self) -> Result<LowestFrequencies, ReductionError> {
         let flanks_free_hz = self.lowest_elastic_hz()?;
         let window = Window { reduced: self.base.clone(), shift: 0 };

@@ -1,11 +1,11 @@
-//! Normal modes of a gear that is held at its bore. Theory (58).
+//! Normal modes of a gear held at its bore. Theory (58).
 //!
 //! ```text
 //! K phi = omega^2 M phi,   Phi' M Phi = 1,   u = Phi q + (C - Phi Omega^-2 Phi') f
 //! ```
-//! Modes with the flanks free are a gear's own: they know nothing of a window, and their coordinates q go on unchanged
-//! as teeth come and go. What is left of the compliance answers at once (MacNeal, Comput. Struct. 1 (1971) 581; with
-//! contact on such a massless boundary: arXiv 2111.07693).
+//! Modes with free flanks belong to the gear and do not depend on a window. Their coordinates q stay unchanged when
+//! teeth enter or leave the window. The rest of the compliance responds statically (MacNeal, Comput. Struct. 1 (1971)
+//! 581; with contact on such a massless boundary: arXiv 2111.07693).
 
 mod basis;
 mod choice;

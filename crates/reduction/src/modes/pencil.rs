@@ -1,4 +1,4 @@
-//! A body that vibrates.
+//! The interface of a vibrating body.
 
 use faer::{Mat, MatRef};
 

@@ -1,12 +1,12 @@
-//! The inertia that modes share with the rigid motion of their gear, seen from axes that do not turn. Theory (62).
+//! Inertia that modes share with the rigid motion of their gear, in axes that do not rotate. Theory (62).
 
 use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use super::GearModes;
 
 impl GearModes {
-    /// L D: the inertia that each mode shares with displacements and turns along axes in which the gear's own frame stands
-    /// at `angle` (rad, about +z), m x 6: t^(1/2), t^(1/2) mm.
+    /// L D: inertia that each mode shares with displacements along and rotations about fixed axes, when the gear's own
+    /// frame is at `angle` (rad, about +z), m x 6: t^(1/2), t^(1/2) mm.
     pub fn coupling_at(&self, angle: f64) -> DMatrix<f64> {
         let (sin, cos) = angle.sin_cos();
         let own = self.coupling();
@@ -18,14 +18,14 @@ impl GearModes {
         })
     }
 
-    /// d(L D)/d(angle) at an angle (rad), m x 6.
+    /// Derivative d(L D)/d(angle) at an angle (rad), m x 6.
     pub fn coupling_rate_at(&self, angle: f64) -> DMatrix<f64> {
         let mut rate = self.coupling_at(angle + std::f64::consts::FRAC_PI_2);
         [2, 5].into_iter().for_each(|axis| rate.column_mut(axis).fill(0.0));
         rate
     }
 
-    /// L' L, averaged over the turn: that of a cyclic gear is the same at every angle; t, t mm, t mm^2.
+    /// L' L, averaged over a rotation; for a cyclic gear it is the same at every angle. Units t, t mm, t mm^2.
     pub fn shared_inertia(&self) -> Matrix6<f64> {
         let own = self.coupling().iter().fold(Matrix6::zeros(), |sum: Matrix6<f64>, row| {
             let l = Vector6::from_column_slice(row);

@@ -1,4 +1,4 @@
-//! What the spin of a cyclic gear needs of its modes. Theory (58a).
+//! Quantities of a cyclic gear's modes that its spin needs. Theory (58a).
 
 use faer::Mat;
 use fem::dense;

@@ -1,10 +1,10 @@
-//! Modes of a gear that spins, as patterns that stand in space while the teeth pass. Theory (58a).
+//! Modes of a spinning gear as patterns that are fixed in space while the teeth pass. Theory (58a).
 
 use nalgebra::DMatrix;
 
 use super::GearModes;
 
-/// Modes of a cyclic gear as patterns that stand in space: amplitudes p instead of those in the gear's own frame q.
+/// Modes of a cyclic gear as patterns fixed in space: amplitudes p instead of the amplitudes q in the gear's own frame.
 ///
 /// ```text
 /// q = e^(theta N) p,   p.. + W G p. + ... ,   W d.' A p beside the kinetic energy
@@ -15,21 +15,22 @@ use super::GearModes;
 /// | G = 2 (N + B) | m x m | 1 | gyroscopic matrix of the modes at unit angular velocity about +z, skew-symmetric |
 /// | A = L'N + E | 6 x m | t^(1/2), t^(1/2) mm | gyroscopic coupling with the rigid motion of the gear, likewise |
 ///
-/// A pattern of n waves whose material does not move sideways is met at omega +- n W; one that is a rigid tilt has the
-/// gyroscopic moment of a rigid body, exactly. First order in W / omega.
+/// A pattern of n waves whose material does not move sideways is observed at omega +- n W. A pattern that is a rigid
+/// tilt has exactly the gyroscopic moment of a rigid body. First order in W / omega.
 #[derive(Debug, Clone)]
 pub struct StandingModes {
     waves: Vec<f64>,
     /// N by waves: a quarter of a wave on.
     quarter: DMatrix<f64>,
-    /// G, m x m.
+    /// Gyroscopic matrix G, m x m.
     pub gyroscopic: DMatrix<f64>,
-    /// A, 6 x m.
+    /// Coupling matrix A, 6 x m.
     pub coupling: DMatrix<f64>,
 }
 
 impl StandingModes {
-    /// e^(theta N), m x m, orthogonal: amplitudes in the frame of a gear that stands at `angle` (rad) by those in space.
+    /// e^(theta N), m x m, orthogonal. It maps amplitudes fixed in space to amplitudes in the frame of a gear at
+    /// `angle` (rad).
     pub fn turned(&self, angle: f64) -> DMatrix<f64> {
         DMatrix::from_fn(self.waves.len(), self.waves.len(), |i, j| {
             let (sin, cos) = (self.waves[i] * angle).sin_cos();
@@ -39,11 +40,11 @@ impl StandingModes {
 }
 
 impl GearModes {
-    /// The modes as patterns that stand in space. `None` for a gear that is not known by sectors, and where modes of one
-    /// frequency are not all there.
+    /// The modes as patterns fixed in space. `None` for a gear that is not condensed by sectors, and if some modes of a
+    /// repeated frequency are missing.
     ///
-    /// Modes without waves, and those of z/2 waves, which neighbouring teeth have with opposite signs, are as they are in
-    /// the gear's frame.
+    /// Modes without waves stay as they are in the gear's frame, and so do those of z/2 waves, which have opposite
+    /// signs on neighbouring teeth.
     pub fn standing(&self) -> Option<StandingModes> {
         let (spin, waves) = (self.spin()?, self.waves()?);
         let turned = self.turned_by_teeth(1)?;

@@ -1,4 +1,4 @@
-//! What turning a cyclic gear by some teeth does to the amplitudes of its modes.
+//! Effect of a rotation of a cyclic gear by several teeth on the amplitudes of its modes.
 
 use nalgebra::DMatrix;
 
@@ -8,18 +8,18 @@ use super::{GearModes, gear_modes::Shapes};
 const LEFT: f64 = 1e-5;
 
 impl GearModes {
-    /// R of `Phi_k = Phi_(k-n) R`, m x m: the shapes on tooth k by those on the tooth n = `teeth` before, each in the frame
-    /// of its own tooth.
+    /// R of `Phi_k = Phi_(k-n) R`, m x m: expresses the shapes on tooth k by those on the tooth n = `teeth` before it,
+    /// each in the frame of its own tooth.
     ///
     /// ```text
     /// Phi_k q = Phi_(k-n) (R q)
     /// ```
-    /// A gear that deforms as it did n pitches ago, seen from space, has amplitudes R q where it had q: it has turned
-    /// counter-clockwise by n pitches, clockwise where n is below 0. R is orthogonal, and turns both modes of w waves into
-    /// each other by 2 pi w n / z.
+    /// If a gear has rotated counter-clockwise by n pitches (clockwise for n < 0) and has the same deformation seen
+    /// from space, its amplitudes change from q to R q. R is orthogonal; it rotates the two modes of w waves into each
+    /// other by 2 pi w n / z.
     ///
-    /// `None` for a gear that is not known by sectors, whose teeth need not be alike, and where modes of one frequency
-    /// are not all there.
+    /// `None` for a gear that is not condensed by sectors, whose teeth may differ, and if some modes of a repeated
+    /// frequency are missing.
     pub fn turned_by_teeth(&self, teeth: i64) -> Option<DMatrix<f64>> {
         let (Shapes::Sector { phases, parts, .. }, Some(waves)) = (self.shapes(), self.waves()) else { return None };
         let rows = parts[0].nrows();

@@ -1,4 +1,4 @@
-//! A whole gear on one factor.
+//! A whole gear with one factor.
 
 use faer::{Mat, MatRef};
 use fem::SymmetricMatrix;

@@ -1,4 +1,4 @@
-//! Columns of one tooth as a file.
+//! File with the columns of one tooth.
 
 use super::{
     COLUMNS, RecordError, RecordKey,
@@ -8,7 +8,7 @@ use super::{
 use crate::ToothColumns;
 
 impl ToothColumns {
-    /// The content of a file: header as of [`crate::ReductionRecord`], then tooth, teeth of the blocks, coordinates of
+    /// The content of a file: header as for [`crate::ReductionRecord`], then tooth, teeth of the blocks, coordinates of
     /// each, matrix.
     pub fn to_bytes(&self, key: &RecordKey) -> Vec<u8> {
         let size = 8 * self.compliance.nrows() * self.compliance.ncols() + 8 * self.partners.len() + 64;
@@ -20,18 +20,18 @@ impl ToothColumns {
         })
     }
 
-    /// The columns in the bytes of a file, if they belong to the gear of `key`.
+    /// Reads the columns from the bytes of a file, if they belong to the gear of `key`.
     ///
     /// # Errors
-    /// [`RecordError`]: any changed, missing or added byte is noticed.
+    /// [`RecordError`]: any changed, missing or added byte is detected.
     pub fn from_bytes(bytes: &[u8], key: &RecordKey) -> Result<Self, RecordError> {
         Self::read(bytes, bytes.len(), key)
     }
 
-    /// The columns in a file of `length` bytes, if they belong to the gear of `key`.
+    /// Reads the columns from a file of `length` bytes, if they belong to the gear of `key`.
     ///
     /// # Errors
-    /// As [`ToothColumns::from_bytes`]; [`RecordError::Unreadable`].
+    /// Those of [`ToothColumns::from_bytes`]; [`RecordError::Unreadable`].
     pub fn read(from: impl std::io::Read, length: usize, key: &RecordKey) -> Result<Self, RecordError> {
         opened(from, length, (COLUMNS, key), |cursor| {
             let tooth = cursor.count()? as u32;

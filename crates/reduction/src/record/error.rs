@@ -1,10 +1,10 @@
-//! Why a file is no record.
+//! Reasons for which a file is not a valid record.
 
-/// The bytes are not the record that was asked for.
+/// The bytes are not the requested record.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
-    /// Another kind of file.
+    /// A file of another kind.
     #[error("is no reduced gear")]
     Foreign,
     /// Written by another version of the program.
@@ -13,32 +13,32 @@ pub enum RecordError {
         /// Version in the file.
         found: u32,
     },
-    /// A record of another gear.
+    /// The record belongs to another gear.
     #[error("belongs to another gear, material or reduction")]
     OtherGear,
-    /// Shorter or longer than it says.
+    /// The file is shorter or longer than its header says.
     #[error("has {found} bytes of {wanted}")]
     WrongLength {
-        /// Bytes there.
+        /// Number of bytes found.
         found: u64,
-        /// Bytes that the header announces.
+        /// Number of bytes given in the header.
         wanted: u64,
     },
-    /// The bytes do not come.
+    /// The file cannot be read.
     #[error("cannot be read: {what}")]
     Unreadable {
-        /// What the system says.
+        /// Message of the operating system.
         what: String,
     },
-    /// The checksum does not fit the bytes.
+    /// The checksum does not match the bytes.
     #[error("is damaged: its checksum is wrong")]
     Damaged,
-    /// The checksum fits, but the lists do not fit together.
+    /// The checksum matches, but the lists are inconsistent.
     #[error("is damaged at byte {at}: {what}")]
     Inconsistent {
-        /// Place in the file.
+        /// Position in the file.
         at: usize,
-        /// What is wrong there.
+        /// What is wrong at this position.
         what: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! Factor of a sector as a file.
+//! File with the factor of a sector.
 
 use fem::KeptFactor;
 
@@ -8,8 +8,8 @@ use super::{
     write::{list, numbers, sealed},
 };
 
-/// The content of a file: header as of [`crate::ReductionRecord`], then rows in order of elimination, number of those
-/// inside, columns of the supernodes, numbers of rows below each, these rows, values.
+/// The content of a file: header as for [`crate::ReductionRecord`], then rows in the order of elimination, number of
+/// interior rows, columns of the supernodes, number of rows below each, these rows, values.
 pub fn factor_bytes(factor: &KeptFactor, key: &RecordKey) -> Vec<u8> {
     let KeptFactor { order, interior, widths, rows, values } = factor;
     let below = rows.concat();
@@ -24,10 +24,10 @@ pub fn factor_bytes(factor: &KeptFactor, key: &RecordKey) -> Vec<u8> {
     })
 }
 
-/// The factor in the bytes of a file of `length` bytes, if it belongs to the gear of `key`.
+/// Reads the factor from a file of `length` bytes, if it belongs to the gear of `key`.
 ///
 /// # Errors
-/// [`RecordError`]: any changed, missing or added byte is noticed.
+/// [`RecordError`]: any changed, missing or added byte is detected.
 pub fn read_factor(from: impl std::io::Read, length: usize, key: &RecordKey) -> Result<KeptFactor, RecordError> {
     opened(from, length, (FACTOR, key), |cursor| {
         let order = cursor.list()?;

@@ -1,4 +1,4 @@
-//! What the numbers of a record depend on, in 32 bytes.
+//! Key of 32 bytes for everything that the numbers of a record depend on.
 
 use std::fmt;
 
@@ -11,12 +11,12 @@ use pulp::bytemuck;
 use super::{MAGIC, RECORD_VERSION};
 use crate::ReductionOptions;
 
-/// Names a record: equal for equal meshes, materials, gears and options, in practice different for any others.
+/// Name of a record: equal for equal meshes, materials, gears and options, in practice different for any others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordKey(pub(super) [u8; 32]);
 
 impl RecordKey {
-    /// The key that a file bears, of whatever gear it is; `None` of what is no record.
+    /// The key in a file, whatever gear it belongs to; `None` if the file is not a record.
     pub fn in_file(bytes: &[u8]) -> Option<Self> {
         let header = bytes.strip_prefix(&MAGIC)?;
         Some(Self(*header.get(4..)?.first_chunk()?))
@@ -31,10 +31,10 @@ impl fmt::Display for RecordKey {
 }
 
 /// BLAKE3 of everything that a reduced gear depends on: version of the format and of the program, nodes, elements, bore
-/// and flanks of the mesh, material, nominal geometry (it places the half teeth), what is kept. `way` names the way of
-/// reduction: results of two ways are equal to round-off only.
+/// and flanks of the mesh, material, nominal geometry (it positions the half teeth), kept flanks. `way` names the
+/// method of reduction, because the results of the two methods are equal only to round-off.
 ///
-/// Micro-geometry and torque are not in it: they change nothing of the reduced gear.
+/// Micro-geometry and torque are not included, because the reduced gear does not depend on them.
 pub fn record_key(
     gear: &MeshedGear,
     geometry: &Gear,

@@ -1,4 +1,4 @@
-//! A reduced gear without its factor: what a later run needs of it, and how that is kept in a file.
+//! A reduced gear without its factor: what a later run needs, and its file format.
 #![doc = include_str!("format.md")]
 
 mod columns;
@@ -20,8 +20,9 @@ pub use factor::{factor_bytes, read_factor};
 pub use key::{RecordKey, record_key};
 pub use table::{read_table, table_bytes};
 
-/// Version of the file format, of what the numbers in it mean and of the code that makes them; another one is never read,
-/// and it is in every key. A test (`a_record_of_another_code_has_another_version`) notices when it must be raised.
+/// Version of the file format, of the meaning of its numbers and of the code that computes them. The version is part of
+/// every key, and files of another version are not read. The test `a_record_of_another_code_has_another_version`
+/// detects when it must be raised.
 pub const RECORD_VERSION: u32 = 7;
 
 /// First bytes of a file.
@@ -35,11 +36,12 @@ const FACTOR: [u8; 16] = *b"ale-gear factor ";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its first window, half teeth, tables made of them; and its lowest elastic frequency. Not the
-/// factor: a reducer from a record asks a [`PartStore`](crate::PartStore) for it, or makes it again, when displacement fields or stress modes
-/// are asked for.
+/// What contact needs of a reduced gear: the matrices of its first window, half teeth, tables computed from them, and
+/// its lowest elastic frequency. The factor is not included. A reducer made from a record asks a
+/// [`PartStore`](crate::PartStore) for the factor, or computes it again, when displacement fields or stress modes are
+/// needed.
 ///
-/// File, little-endian, `format.md` beside this file:
+/// File format, little-endian; described in `format.md` in the folder of this source file:
 ///
 /// | bytes | what |
 /// |---|---|
@@ -64,7 +66,7 @@ pub struct ReductionRecord {
 }
 
 impl ReductionRecord {
-    /// Tables that contact made of the gear, by key.
+    /// Tables that contact has computed from the gear, by key.
     pub fn tables(&self) -> &[(TableKey, KeptTable)] {
         &self.tables
     }

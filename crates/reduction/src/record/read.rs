@@ -1,4 +1,4 @@
-//! From a file to a record, read once: nothing is believed that was not checked.
+//! Reads a record from a file in one pass; every value is checked before it is used.
 
 use std::{io::Read, sync::Arc};
 
@@ -17,18 +17,18 @@ use crate::{
 const BLOCK: usize = 1 << 18;
 
 impl ReductionRecord {
-    /// The record in the bytes of a file, if it is that of `key`.
+    /// Reads the record from the bytes of a file, if it is that of `key`.
     ///
     /// # Errors
-    /// [`RecordError`]: any changed, missing or added byte is noticed.
+    /// [`RecordError`]: any changed, missing or added byte is detected.
     pub fn from_bytes(bytes: &[u8], key: &RecordKey) -> Result<Self, RecordError> {
         Self::read(bytes, bytes.len(), key)
     }
 
-    /// The record in a file of `length` bytes, if it is that of `key`.
+    /// Reads the record from a file of `length` bytes, if it is that of `key`.
     ///
     /// # Errors
-    /// As [`ReductionRecord::from_bytes`]; [`RecordError::Unreadable`].
+    /// Those of [`ReductionRecord::from_bytes`]; [`RecordError::Unreadable`].
     pub fn read(from: impl Read, length: usize, key: &RecordKey) -> Result<Self, RecordError> {
         opened(from, length, (MAGIC, key), Cursor::record)
     }

@@ -1,4 +1,4 @@
-//! Other directions of a table as a file.
+//! File with the part of a table for directions other than the normal.
 
 use super::{
     RecordError, RecordKey, TABLE,
@@ -7,7 +7,7 @@ use super::{
 };
 use crate::TableKey;
 
-/// The content of a file: header as of [`crate::ReductionRecord`], then key of the table, values.
+/// The content of a file: header as for [`crate::ReductionRecord`], then key of the table, values.
 pub fn table_bytes(table: &TableKey, values: &[f64], key: &RecordKey) -> Vec<u8> {
     sealed(TABLE, key, 8 * values.len() + 64, |bytes| {
         bytes.extend(table.0);
@@ -15,10 +15,10 @@ pub fn table_bytes(table: &TableKey, values: &[f64], key: &RecordKey) -> Vec<u8>
     })
 }
 
-/// The values in the bytes of a file of `length` bytes, if they are those of a table of the gear of `key`.
+/// Reads the values from a file of `length` bytes, if they belong to a table of the gear of `key`.
 ///
 /// # Errors
-/// [`RecordError`]: any changed, missing or added byte is noticed.
+/// [`RecordError`]: any changed, missing or added byte is detected.
 pub fn read_table(
     table: &TableKey,
     from: impl std::io::Read,

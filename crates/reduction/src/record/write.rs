@@ -1,4 +1,4 @@
-//! From a record to bytes.
+//! Writes a record as bytes.
 
 use faer::Mat;
 use geometry::Side;

@@ -1,4 +1,4 @@
-//! What was asked of a gear so far.
+//! Results that have been requested from a gear so far.
 
 use std::{
     collections::BTreeMap,

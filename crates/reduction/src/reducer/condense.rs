@@ -1,4 +1,4 @@
-//! Which way a gear is condensed, and its first window.
+//! Selects the method of condensation and condenses the first window.
 
 use std::sync::Arc;
 

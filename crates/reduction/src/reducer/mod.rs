@@ -1,4 +1,4 @@
-//! One condensation a gear, any window of it. Theory (11), (12).
+//! One condensation per gear, and any of its windows. Theory (11), (12).
 
 mod asked;
 mod condense;
@@ -28,17 +28,18 @@ pub(crate) use condense::{Method, Summary};
 
 /// A gear that can be reduced to any window of its teeth.
 ///
-/// Coordinates are the flank nodes of the window's teeth, or means of their displacements with the weights of loads on
-/// coarse grids ([`FlankGrid`]). They are known from one sector where the gear is cyclic to round-off, else from one
-/// factor of the whole gear ([`ReductionWay`]); the matrices are the same to 1e-9. A cyclic gear has the same matrices
-/// for all windows, in frames turned by whole pitches; for any other gear further windows are selections of the columns
-/// of their teeth, which come from solves with the same factor and may be kept in a [`PartStore`](crate::PartStore).
+/// Coordinates are the flank nodes of the window's teeth, or weighted means of their displacements that belong to loads
+/// on coarse grids ([`FlankGrid`]). They are computed from one sector if the gear is cyclic to round-off, otherwise
+/// with one factor of the whole gear ([`ReductionWay`]). Both methods give the same matrices to 1e-9. A cyclic gear has
+/// the same matrices for all windows, in frames rotated by whole pitches. For any other gear, further windows select
+/// the columns of their teeth; these columns come from solves with the same factor and may be stored in a
+/// [`PartStore`](crate::PartStore).
 ///
-/// A periodic sector of one tooth is never unrolled to the whole gear: [`GearReducer::gear`] then is the sectors of the
-/// first window and one more on either side, in the frame of the matrices.
+/// A periodic sector of one tooth is never expanded to the whole gear. [`GearReducer::gear`] then returns the sectors
+/// of the first window and one more on either side, in the frame of the matrices.
 ///
-/// A gear from a [`ReductionRecord`](crate::ReductionRecord) is condensed only when something asks for more than the
-/// record has: another window of a gear that is not cyclic, a displacement field, stress modes, mass.
+/// A gear from a [`ReductionRecord`](crate::ReductionRecord) is condensed only if a result is requested that the record
+/// does not have: another window of a gear that is not cyclic, a displacement field, stress modes, mass.
 #[derive(Debug)]
 pub struct GearReducer {
     gear: MeshedGear,
@@ -59,26 +60,28 @@ pub struct GearReducer {
 impl GearReducer {
     /// Condenses a gear to its flank nodes and reduces the first window.
     ///
-    /// A periodic sector, and a whole gear that a turn by one pitch leaves the same to round-off, go the cyclic way.
+    /// The cyclic method is used for a periodic sector, and for a whole gear that is invariant to round-off under
+    /// rotation by one pitch.
     ///
     /// # Errors
-    /// [`ReductionError`] when a flank is missing or the matrices are not what they must be.
+    /// [`ReductionError`] if a flank is missing or the matrices are not valid.
     pub fn new(gear: MeshedGear, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
         Self::watched(gear, material, options, false, ReductionWatch::IDLE)
     }
 
-    /// Reducer by one factor of the whole gear, whatever the gear is.
+    /// Condenses with one factor of the whole gear, even if the gear is cyclic.
     ///
     /// # Errors
-    /// As [`GearReducer::new`].
+    /// Those of [`GearReducer::new`].
     pub fn general(gear: MeshedGear, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
         Self::watched(gear, material, options, true, ReductionWatch::IDLE)
     }
 
-    /// As [`GearReducer::new`], or where `general` as [`GearReducer::general`], while somebody waits.
+    /// As [`GearReducer::new`], or as [`GearReducer::general`] if `general` is set, but reports progress and can be
+    /// cancelled.
     ///
     /// # Errors
-    /// As [`GearReducer::new`], and [`ReductionError::is_unwanted`].
+    /// Those of [`GearReducer::new`], and an error with [`ReductionError::is_unwanted`] after a cancellation.
     pub fn watched(
         gear: MeshedGear,
         material: Material,
@@ -89,11 +92,12 @@ impl GearReducer {
         Self::build(gear, material, options, (general, watch), |_| Ok(Coordinates::FlankNodes))
     }
 
-    /// Condenses a gear to grids over its flanks; `grids` makes those of every flank that a window may hold, on the
-    /// mesh that [`GearReducer::gear`] will show. `general`: by one factor of the whole gear, whatever the gear is.
+    /// Condenses a gear to grids over its flanks. `grids` makes the grids of all flanks that a window may contain, on
+    /// the mesh that [`GearReducer::gear`] will return. With `general` one factor of the whole gear is used, even if
+    /// the gear is cyclic.
     ///
     /// # Errors
-    /// [`ReductionError`] as for [`GearReducer::new`]; those of `grids`.
+    /// [`ReductionError`] as for [`GearReducer::new`]; the errors of `grids`.
     pub fn on_grids<E: From<ReductionError>>(
         gear: MeshedGear,
         material: Material,
@@ -117,11 +121,12 @@ impl GearReducer {
         Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
     }
 
-    /// Reduces the first window of a wide gear by a shorter one of the same layers, `gear`: of its compliance the
-    /// columns that the first tooth's flank has, which tell those of all others. One sector, one side.
+    /// Reduces the first window of a wide gear by means of a shorter one with equal layers, `gear`. Only the columns of
+    /// the compliance for the first tooth's flank are computed, because all others follow from them. For one sector and
+    /// one side.
     ///
     /// # Errors
-    /// [`ReductionError::NoSectorOfLayers`]; else as [`GearReducer::new`].
+    /// [`ReductionError::NoSectorOfLayers`]; otherwise those of [`GearReducer::new`].
     pub fn of_layers(
         gear: MeshedGear,
         material: Material,
@@ -135,7 +140,7 @@ impl GearReducer {
         Ok(Self { stack: Some(stack), ..Self::assembled(material, options, condensed, OnceLock::from(method)) })
     }
 
-    /// The layers of which this gear knows a part; `None` for a gear that is known as a whole.
+    /// The layers of this gear, if only a part of them was condensed; `None` for a gear that was condensed as a whole.
     pub fn stack(&self) -> Option<LayerStack> {
         self.stack
     }
@@ -153,11 +158,11 @@ impl GearReducer {
         Self { stack, gear, given, material, options, dofs, coordinates, summary, method, base, asked }
     }
 
-    /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for one that has no freedom.
-    /// Found once; a record keeps it.
+    /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for a gear without degrees of
+    /// freedom. It is computed once and stored in a record.
     ///
     /// # Errors
-    /// As [`GearReducer::modes`].
+    /// Those of [`GearReducer::modes`].
     pub fn lowest_elastic_hz(&self) -> Result<f64, ReductionError> {
         if let Some(hz) = self.asked.lowest_hz.get() {
             return Ok(*hz);
@@ -178,7 +183,7 @@ impl GearReducer {
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }
 
-    /// The mesh: the whole gear as it was given, or the sectors about the first window.
+    /// The mesh: the whole gear as given, or the sectors around the first window.
     pub fn gear(&self) -> &MeshedGear {
         &self.gear
     }
@@ -188,7 +193,7 @@ impl GearReducer {
         &self.material
     }
 
-    /// Element variants used.
+    /// Variants of the elements.
     pub fn elements(&self) -> &ElementOptions {
         &self.options.elements
     }
@@ -198,17 +203,17 @@ impl GearReducer {
         &self.dofs
     }
 
-    /// Number of free degrees of freedom of the gear, all its sectors counted.
+    /// Number of free degrees of freedom of the gear, including all its sectors.
     pub fn free_count(&self) -> usize {
         self.stack.map_or(self.summary.free_count, |stack| stack.free_count)
     }
 
-    /// Which way the gear was condensed.
+    /// Method by which the gear was condensed.
     pub fn way(&self) -> ReductionWay {
         self.summary.way
     }
 
-    /// Whether all windows are alike: the gear is the same after a turn by one pitch.
+    /// Whether all windows are equal: the gear is invariant under rotation by one pitch.
     pub fn is_cyclic(&self) -> bool {
         self.summary.cyclic
     }
@@ -221,7 +226,7 @@ impl GearReducer {
         }
     }
 
-    /// Positions (mm) and faces that carry the load of a flank: the mesh's own, or those of the grid over it.
+    /// Positions (mm) and faces that carry the load of a flank: those of the mesh or those of the grid over it.
     pub fn flank(&self, tooth: u32, side: Side) -> Option<(&[[f64; 3]], &[Face])> {
         match &self.coordinates {
             Coordinates::FlankNodes => Some((&self.gear.mesh().nodes, self.gear.flank(tooth, side)?)),

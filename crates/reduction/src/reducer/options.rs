@@ -1,25 +1,25 @@
-//! What is kept of a gear, and which way it is condensed.
+//! What is kept of a gear, and the method of condensation.
 
 use fem::{ElementOptions, Wanted};
 use geometry::Side;
 
-/// What to keep.
+/// What to keep of a gear.
 #[derive(Debug, Clone)]
 pub struct ReductionOptions {
     /// Sides of the teeth whose flanks are kept.
     pub sides: Vec<Side>,
     /// Number of teeth W of a window.
     pub window: usize,
-    /// First tooth of the window that is reduced at once.
+    /// First tooth of the window that is reduced immediately.
     pub first: u32,
     /// Element variants.
     pub elements: ElementOptions,
 }
 
-/// What a reduction begins, for who waits.
+/// Stage of a reduction, for progress reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReductionStage {
-    /// Stiffness and factor of one sector, and the ring of all of them.
+    /// Stiffness and factor of one sector, and the ring of all sectors.
     Sector,
     /// Stiffness of the whole gear, its ordering and its factor.
     Factor {
@@ -40,12 +40,12 @@ impl std::fmt::Display for ReductionStage {
     }
 }
 
-/// Who waits for a reduction: hears what is begun, and may lose interest.
+/// Observer of a reduction: it is told of each stage and can cancel the work.
 #[derive(Clone, Copy)]
 pub struct ReductionWatch<'a> {
-    /// Hears what is begun.
+    /// Called at the beginning of each stage.
     pub tell: &'a (dyn Fn(ReductionStage) + Sync),
-    /// Whether the rest of the work is still wanted, asked between its steps.
+    /// Called between the stages; tells whether the result is still wanted.
     pub wanted: Wanted<'a>,
 }
 
@@ -60,17 +60,17 @@ impl std::fmt::Debug for ReductionWatch<'_> {
     }
 }
 
-/// Which way a gear was condensed.
+/// Method by which a gear is condensed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReductionWay {
     /// One sector, joined with itself.
     CyclicSector,
-    /// The whole gear in one factor.
+    /// One factor of the whole gear.
     General,
 }
 
 impl ReductionWay {
-    /// In words, for tables.
+    /// Name for tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::CyclicSector => "cyclic sector",

@@ -1,4 +1,4 @@
-//! Parts of a gear that are kept beside its record: columns of its teeth, the factor of its sector, tables.
+//! Parts of a gear stored beside its record: columns of its teeth, the factor of its sector, tables.
 
 use std::{
     collections::BTreeSet,
@@ -27,7 +27,7 @@ pub(super) struct Parts {
     faults: Mutex<Vec<PartFault>>,
 }
 
-/// Where a table but for its part along the normals is kept.
+/// Store for the part of a table that is not for the normals.
 #[derive(Debug, Clone)]
 pub struct TablePart {
     parts: Arc<Parts>,
@@ -36,7 +36,7 @@ pub struct TablePart {
 }
 
 impl TablePart {
-    /// What is kept.
+    /// The stored values, if any.
     pub fn load(&self) -> Option<Arc<Vec<f64>>> {
         if let Some(at_hand) = &self.at_hand {
             return Some(at_hand.clone());
@@ -45,7 +45,7 @@ impl TablePart {
         self.parts.heard(store.load_table(&self.key))?.map(Arc::new)
     }
 
-    /// Keeps what was made.
+    /// Stores the values.
     pub fn save(&self, values: &[f64]) {
         if let Some(store) = self.parts.store() {
             self.parts.heard(store.save_table(&self.key, values));
@@ -78,14 +78,14 @@ impl GearReducer {
         self
     }
 
-    /// What was wrong with files of parts since the last call.
+    /// Faults of stored files since the last call.
     pub fn part_faults(&self) -> Vec<PartFault> {
         let own = &mut *self.asked.parts.faults.lock().unwrap_or_else(PoisonError::into_inner);
         own.drain(..).chain(self.column_faults()).collect()
     }
 
-    /// Keeps what this run has made beside the record, where there is a store: the factor of the sector, which a later run
-    /// recovers fields with, if it is not too large, and tables.
+    /// Stores what this run has computed beside the record, if there is a store: the factor of the sector (if it is not
+    /// too large), with which a later run recovers fields, and tables.
     pub fn keep_parts(&self) {
         let parts = &self.asked.parts;
         let Some(store) = parts.store() else { return };
@@ -112,7 +112,7 @@ impl GearReducer {
         parts.has_factor.store(kept.is_some(), Ordering::Relaxed);
     }
 
-    /// Where a table of the gear is kept but for its part along the normals; it may be `at_hand`.
+    /// Store for the part of a table that is not for the normals; it may be `at_hand`, that is in memory.
     pub fn table_part(&self, key: &TableKey, at_hand: Option<Arc<Vec<f64>>>) -> TablePart {
         TablePart { parts: self.asked.parts.clone(), key: *key, at_hand }
     }

@@ -1,4 +1,4 @@
-//! Gears from records, and records of gears.
+//! Makes gears from records, and records from gears.
 
 use std::sync::OnceLock;
 
@@ -18,11 +18,11 @@ const MOST_TABLES: usize = 2;
 const MOST_VALUES: usize = 4 << 20;
 
 impl GearReducer {
-    /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of
-    /// ([`crate::record_key`] sees to that); with `record` of another first window the gear is reduced anew.
+    /// Makes a gear from a record. Mesh, material and options must be those from which the record was made
+    /// ([`crate::record_key`] ensures this). If `record` is for another first window, the gear is reduced again.
     ///
     /// # Errors
-    /// As [`GearReducer::new`].
+    /// Those of [`GearReducer::new`].
     pub fn from_record(
         gear: MeshedGear,
         material: Material,
@@ -49,22 +49,22 @@ impl GearReducer {
         Ok(Self { given, asked, ..Self::assembled(material, options, condensed, OnceLock::new()) })
     }
 
-    /// What a later run needs of this gear: the first window, half teeth, tables and lowest frequency that were asked for so
-    /// far;
-    /// further windows, and tables but for their part along the normals, are in a [`PartStore`](crate::PartStore).
-    /// `None` when a record has it all already, and for a gear reduced to grids or by its layers.
+    /// What a later run needs of this gear: the first window, half teeth, tables and lowest frequency that have been
+    /// requested so far. Further windows, and the parts of tables that are not for the normals, are in a
+    /// [`PartStore`](crate::PartStore). `None` if an existing record is complete, and for a gear reduced to grids or by
+    /// its layers.
     pub fn record(&self) -> Option<ReductionRecord> {
         let record = || self.asked.record(self.summary, &self.base);
         (self.coordinates.are_nodes() && self.stack().is_none()).then(record).flatten()
     }
 
-    /// A table that was kept of a window of the gear.
+    /// A stored table of a window of the gear.
     pub fn kept_table(&self, key: &TableKey) -> Option<KeptTable> {
         self.asked.tables().get(key).cloned()
     }
 
-    /// Keeps a table of a window of the gear, which `key` names by all else that it depends on. Large ones, and more than
-    /// two, are not kept.
+    /// Stores a table of a window of the gear. `key` stands for everything else that the table depends on. Large
+    /// tables, and more than two tables, are not stored.
     pub fn keep_table(&self, key: TableKey, table: &KeptTable) {
         let mut tables = self.asked.tables();
         let values = table.normal.len() + table.others.as_ref().map_or(0, |others| others.len());

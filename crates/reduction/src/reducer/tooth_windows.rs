@@ -1,4 +1,4 @@
-//! Windows of a gear that is not cyclic, each a selection of the columns of its teeth.
+//! Windows of a gear that is not cyclic; each selects the columns of its teeth.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
@@ -55,7 +55,8 @@ impl Known {
 }
 
 impl GearReducer {
-    /// Teeth whose columns were made by solves so far, beside those of the first window. Of a cyclic gear 0.
+    /// Number of teeth whose columns have been solved so far, in addition to those of the first window; 0 for a cyclic
+    /// gear.
     pub fn teeth_solved(&self) -> usize {
         self.asked.others.known().columns.made
     }

@@ -1,4 +1,4 @@
-//! Windows of a condensed gear, and what stands about them.
+//! Windows of a condensed gear, and quantities related to them.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ impl GearReducer {
     /// The window whose first tooth is `first`.
     ///
     /// # Errors
-    /// [`ReductionError::MissingFlank`] when the mesh ends before the window does.
+    /// [`ReductionError::MissingFlank`] if the mesh ends before the window does.
     pub fn window(&self, first: u32) -> Result<Window, ReductionError> {
         let z = self.gear.tooth_count();
         let (first, base) = (first % z, self.options.first % z);
@@ -28,13 +28,13 @@ impl GearReducer {
         Ok(Window { reduced: self.window_of_teeth(first)?, shift: 0 })
     }
 
-    /// Whether the window from tooth `first` on has the matrices of another one; nothing is made to find out.
+    /// Whether the window that starts at tooth `first` has the same matrices as another window. No matrix is computed
+    /// for the answer.
     pub fn shares_matrices(&self, window: &Window, first: u32) -> bool {
         self.is_cyclic() || window.reduced.teeth.first() == Some(&(first % self.gear.tooth_count()))
     }
 
-    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was
-    /// meshed.
+    /// Half tooth of the mesh behind one flank, condensed on first request. `geometry` is the gear that was meshed.
     ///
     /// # Errors
     /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].
@@ -63,7 +63,7 @@ impl GearReducer {
         Ok(half)
     }
 
-    /// Place among a window's boundary nodes of a node of [`GearReducer::flank`].
+    /// Position, among a window's boundary nodes, of a node of [`GearReducer::flank`].
     pub fn boundary_position(&self, window: &Window, (tooth, side): (u32, Side), node: u32) -> Option<usize> {
         let Coordinates::Grids(grids) = &self.coordinates else { return window.reduced.position(node) };
         let mut at = 0;
@@ -79,19 +79,19 @@ impl GearReducer {
         None
     }
 
-    /// Angle of a window's frame in the gear's own frame, rad.
+    /// Angle of a window's frame relative to the gear's own frame, rad.
     pub fn frame_angle(&self, window: &Window) -> f64 {
         self.gear.pitches_on(window.shift)
     }
 
-    /// The mesh's own nodes under a window's boundary nodes: turned on by its shift.
+    /// The mesh nodes that correspond to a window's boundary nodes, rotated by the window's shift.
     pub fn material_nodes(&self, window: &Window) -> Vec<u32> {
         window.reduced.nodes.iter().map(|&n| self.material_node(window, n)).collect()
     }
 
-    /// The mesh's own node at the place of `node` of the window's frame: turned on by the window's shift.
+    /// The mesh node at the position of `node` of the window's frame, rotated by the window's shift.
     ///
-    /// `node` itself where the mesh does not have that place, being some sectors only.
+    /// `node` itself if the mesh consists of several sectors only and does not contain this position.
     pub fn material_node(&self, window: &Window, node: u32) -> u32 {
         if window.shift == 0 {
             return node;

@@ -16,7 +16,7 @@ pub struct Page {
     pub version: String,
     /// Checks that do not hold, in words.
     pub failed: Vec<String>,
-    /// What the user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
     /// The few numbers that people look for first: label and value with unit.
     pub glance: Vec<[String; 2]>,

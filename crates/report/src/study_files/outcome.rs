@@ -58,7 +58,7 @@ pub struct StudyResult<'a> {
     pub findings: &'a Findings,
     /// The whole model, where it was run.
     pub speed_up: Option<&'a SpeedUp>,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: &'a [answer::Remark],
     /// Whether every case was to have a report.
     pub reports: bool,

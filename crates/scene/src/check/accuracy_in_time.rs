@@ -1,4 +1,4 @@
-//! What of a motion can have bounds.
+//! Checks which values of a motion can have error bounds.
 
 use std::ops::Range;
 

@@ -1,5 +1,5 @@
-//! What a continuation can follow: motions that come back after mesh cycles, along a key that the model has; and of
-//! what basins can be looked for.
+//! Checks what a continuation can follow (motions that are periodic in mesh cycles, along a key of the model), and the
+//! models that can have basins.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Keys by which a run at rest is differentiated.
+//! Keys by which a static run is differentiated.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! The gears, and what they share.
+//! Checks of the gears and of the data common to both.
 
 use geometry::{GearData, Shaper};
 use mesh::{GroupNames, Mesh};

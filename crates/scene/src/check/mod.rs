@@ -1,4 +1,4 @@
-//! From words to a scene: ranges, defaults, what goes together, what this version cannot do.
+//! Checks raw values and makes a scene: ranges, defaults, combinations, features that this version does not have.
 
 mod accuracy_in_time;
 mod continuation;

@@ -1,4 +1,4 @@
-//! Bodies, bearings and shafts of the gears, and what else goes with a motion.
+//! Checks of bodies, bearings and shafts of the gears, and of other tables for motion.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! Pitch errors of a gear.
+//! Checks of a gear's pitch errors.
 
 use super::Checked;
 use crate::schema::RawGear;

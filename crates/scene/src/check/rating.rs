@@ -1,4 +1,4 @@
-//! `[rating]`: everything that it needs is asked for by name.
+//! Checks of `[rating]`: missing inputs are requested by name.
 
 use toml::Spanned;
 

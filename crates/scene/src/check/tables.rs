@@ -1,4 +1,4 @@
-//! Load, contact, analysis and output: tables that stand for themselves.
+//! Checks of tables that do not depend on others: load, contact, analysis, output.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! What goes together.
+//! Checks of combinations of keys.
 
 use toml::Spanned;
 

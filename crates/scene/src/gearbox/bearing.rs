@@ -1,4 +1,4 @@
-//! Bearings of a gearbox file: of a stiffness, or of rolling elements.
+//! Bearings of a gearbox file: with a given stiffness, or with rolling elements.
 
 use toml::Spanned;
 

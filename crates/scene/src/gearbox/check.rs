@@ -1,4 +1,4 @@
-//! From the words of a gearbox file to a gearbox. Every complaint is made here, before any work starts.
+//! Checks raw values of a gearbox file and makes a gearbox. All errors are found here, before any work starts.
 
 use toml::Spanned;
 

@@ -15,46 +15,46 @@ use crate::{AccuracyScene, DataFile, ModesScene, Scene, Sense, TorqueScene};
 pub struct Gearbox {
     /// Title.
     pub name: String,
-    /// Where the file stands; paths in it are relative to its folder.
+    /// Path of the file; paths in it are relative to its folder.
     pub file: PathBuf,
-    /// Words of a command line that set keys beside the file.
+    /// Words of a command line that set keys in addition to the file.
     pub set: Vec<String>,
-    /// Shafts.
+    /// Shafts of the gearbox.
     pub shafts: Vec<GearboxShaft>,
-    /// Bearings.
+    /// Bearings of the gearbox.
     pub bearings: Vec<GearboxBearing>,
-    /// Gears.
+    /// Gears of the gearbox.
     pub gears: Vec<GearboxGear>,
-    /// Meshes.
+    /// Meshes of the gearbox.
     pub meshes: Vec<GearboxMesh>,
-    /// Where it is driven.
+    /// Input of the gearbox.
     pub input: GearboxInput,
-    /// Loads.
+    /// Torques that load the gearbox.
     pub torques: Vec<GearboxTorque>,
-    /// Planets of stages, written out among shafts, bearings, gears and meshes.
+    /// Planets of stages; their parts are also among shafts, bearings, gears and meshes.
     pub planets: Vec<GearboxPlanets>,
-    /// Rows of the stiffness of the housing between the seats of the bearings in it, N, mm, rad; none: rigid.
+    /// Rows of the housing's stiffness between the seats of the bearings in it, N, mm, rad; `None`: rigid.
     pub housing: Option<Vec<Vec<f64>>>,
-    /// Positions a cycle of the first mesh.
+    /// Positions per cycle of the first mesh.
     pub positions_per_cycle: u32,
-    /// Cycles of the first mesh.
+    /// Number of cycles of the first mesh.
     pub cycles: u32,
-    /// Elements along every shaft, at least.
+    /// Least number of elements along every shaft.
     pub shaft_elements: u32,
-    /// How exact its headline numbers at rest are to be.
+    /// Accuracy requested for the static headline values.
     pub accuracy: AccuracyScene,
-    /// Speed and oil of ratings, where they are asked for.
+    /// Speed and oil of the rating, if requested.
     pub rating: Option<GearboxRating>,
-    /// Vibration about where it stands, where it is asked for.
+    /// Vibration about the equilibrium, if requested.
     pub vibration: Option<GearboxVibration>,
-    /// Normal modes of the gears in that vibration and in a motion; none: gears are rigid beside their teeth. Their damping is
-    /// that of the motion: a vibration has one for all modes.
+    /// Normal modes of the gears in this vibration and in a motion; `None`: gears are rigid apart from their teeth.
+    /// Their damping is that of the motion; a vibration has one damping ratio for all modes.
     pub modes: Option<ModesScene>,
-    /// How it runs in time; none: at rest alone.
+    /// Motion in time; `None`: only statics.
     pub motion: Option<GearboxMotion>,
-    /// Periodic motions over the speed of the input; none: not asked for.
+    /// Periodic motions over the speed of the input; `None`: not requested.
     pub branch: Option<GearboxBranch>,
-    /// Every table column by column as well, for other programs.
+    /// Whether every table is also written in columns (Parquet), for other programs.
     pub parquet: bool,
 }
 
@@ -76,13 +76,13 @@ impl Gearbox {
         self.planets.iter().flat_map(|planets| planets.meshes.iter().map(move |mesh| (planets, mesh)))
     }
 
-    /// The shaft that is fixed in space while the carrier turns; `None`: the carrier does not turn.
+    /// The shaft that is fixed in space while the carrier rotates; `None`: the carrier does not rotate.
     pub fn fixed_shaft(&self) -> Option<usize> {
         self.shafts.iter().position(|shaft| shaft.fixed)
     }
 
-    /// The mesh that a part of a key means: by its number in the file from 0, else by its name; the first one where planets
-    /// have it in common.
+    /// The mesh to which a part of a key refers: by its index in the file from 0, otherwise by its name; for a mesh
+    /// that planets have in common, the first one.
     pub fn mesh_called(&self, which: &str) -> Option<usize> {
         let is_copy = |i: &usize| self.meshes_of_planets().any(|(_, own)| own.of_planets[1..].contains(i));
         let mut in_file = (0..self.meshes.len()).filter(|i| !is_copy(i));
@@ -99,32 +99,32 @@ impl Gearbox {
 pub struct GearboxShaft {
     /// Name.
     pub name: String,
-    /// Where its own z = 0 lies, mm.
+    /// Position of its own z = 0, mm.
     pub origin: [f64; 3],
-    /// Sections from there on.
+    /// Sections, starting at its own z = 0.
     pub sections: Vec<GearboxSection>,
     /// Young's modulus, MPa.
     pub young_mpa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Density, t/mm^3; it matters in motion.
+    /// Density, t/mm^3; used in motion.
     pub density: f64,
-    /// Rigid in rigid bearings.
+    /// Whether it is rigid in rigid bearings.
     pub held: bool,
-    /// Whether it does not turn in the frame of the carrier.
+    /// Whether it does not rotate in the frame of the carrier.
     pub stands: bool,
-    /// Whether it does not turn in space, where the carrier does.
+    /// Whether it does not rotate in space while the carrier does.
     pub fixed: bool,
 }
 
 /// Planets of a stage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxPlanets {
-    /// Name of the shaft of the first one in the file.
+    /// Name of the shaft of the first planet in the file.
     pub name: String,
-    /// Meshes that each of them has.
+    /// Meshes of each planet.
     pub meshes: Vec<PlanetMesh>,
-    /// Angle of each planet from the first, rad about +z.
+    /// Angle of each planet relative to the first, rad about +z.
     pub angles: Vec<f64>,
 }
 
@@ -133,24 +133,26 @@ pub struct GearboxPlanets {
 pub struct PlanetMesh {
     /// Name in the file.
     pub name: String,
-    /// Meshes of the planets, in their order.
+    /// Indices of the planets' meshes, in order.
     pub of_planets: Vec<usize>,
 }
 
-/// Operation that meshes and bearings are rated for.
+/// Operating conditions for the rating of meshes and bearings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxRating {
     /// Speed of the input, 1/min, above 0.
     pub speed_rpm: f64,
-    /// Kinematic viscosity of the oil in the bearings at their temperature, mm^2/s; none: neither losses nor modified lives.
+    /// Kinematic viscosity of the oil in the bearings at their temperature, mm^2/s; `None`: neither losses nor modified
+    /// lives.
     pub viscosity: Option<f64>,
-    /// e_C of ISO 281; none: basic lives alone.
+    /// e_C of ISO 281; `None`: only basic lives.
     pub contamination_factor: Option<f64>,
-    /// Loads over the life, each with the torque of the first load and the speed of the input; other torques go with it.
+    /// Load spectrum over the life, each load with the torque of the first output and the speed of the input; other
+    /// torques are proportional.
     pub spectrum: Option<DataFile<Spectrum>>,
 }
 
-/// A length of shaft of one section.
+/// A piece of shaft with a constant section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxSection {
     /// Length, mm.
@@ -166,19 +168,19 @@ pub struct GearboxSection {
 pub struct GearboxBearing {
     /// Name.
     pub name: String,
-    /// Shaft.
+    /// Index of the shaft.
     pub shaft: usize,
     /// Middle of the bearing, mm from the shaft's z = 0.
     pub position: f64,
-    /// Shaft that its seat is part of; none: the housing.
+    /// Index of the shaft that contains its seat; `None`: the housing.
     pub in_shaft: Option<usize>,
-    /// How far its seat stands off, mm.
+    /// Displacement of its seat from the nominal position, mm.
     pub seat_offset: [f64; 3],
-    /// Stiffness for displacements x, y, z and turns about them: N/mm, N, N mm.
+    /// Stiffness for displacements x, y, z and rotations about them: N/mm, N, N mm.
     pub stiffness: [[f64; 6]; 6],
     /// Damping along x, y, z, N s/mm.
     pub damping: [f64; 3],
-    /// Rolling elements in place of the stiffness, which is zero then.
+    /// Rolling elements instead of the stiffness, which is then zero.
     pub rolling: Option<GearboxRolling>,
 }
 
@@ -218,66 +220,66 @@ impl GearboxBearing {
     }
 }
 
-/// A rolling bearing whose stiffness follows its load.
+/// A rolling bearing whose stiffness depends on its load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxRolling {
     /// Kind of the bearing.
     pub kind: RollingKind,
-    /// Size of its rolling elements, or what a catalogue says.
+    /// Dimensions of its rolling elements, or catalogue data.
     pub size: RollingSize,
     /// Nominal contact angle, rad; 0 for deep grooves and cylindrical rollers.
     pub contact_angle: f64,
-    /// Groove radius over ball diameter: inner and outer ring.
+    /// Groove radius divided by ball diameter: inner and outer ring.
     pub conformity: [f64; 2],
-    /// Rollers without relief.
+    /// Whether rollers have no relief.
     pub straight_rollers: bool,
-    /// Radial clearance, the whole play, mm.
+    /// Radial clearance (total play), mm.
     pub radial_clearance: f64,
-    /// How its rows are set along the axis.
+    /// Axial setting of its rows.
     pub axial: AxialPlay,
-    /// Place of each row beside the middle, mm, and +1 or -1 for the thrust of the shaft that it takes.
+    /// Position of each row relative to the middle, mm, and +1 or -1 for the shaft thrust that it takes.
     pub rows: Vec<[f64; 2]>,
     /// Thrust that its seat takes.
     pub seat: ThrustSeat,
-    /// C of the whole bearing, N, ISO 281; none: estimated, or its life is not told.
+    /// C of the whole bearing, N, ISO 281; `None`: estimated, or the life is not computed.
     pub dynamic_rating: Option<f64>,
-    /// Designation, where it has one: a rating that is not stated is estimated.
+    /// Designation, if given; then a rating that is not given is estimated.
     pub designation: Option<String>,
 }
 
 impl GearboxRolling {
-    /// Whether its life is told where a speed is known.
+    /// Whether its life is computed if a speed is known.
     pub fn has_life(&self) -> bool {
         self.dynamic_rating.is_some() || self.designation.is_some()
     }
 }
 
-/// Thrust of the shaft that the seat of a bearing takes.
+/// Shaft thrust that the seat of a bearing takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ThrustSeat {
-    /// As its rows do.
+    /// That of its rows.
     Held,
-    /// None: the outer ring floats.
+    /// None: the outer ring floats axially.
     Floating,
-    /// Towards +z (+1) or -z (-1) alone.
+    /// Only towards +z (+1) or -z (-1).
     Shoulder(f64),
 }
 
-/// What is known of the inside of a rolling bearing.
+/// Known dimensions of a rolling bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RollingSize {
-    /// The elements of a row, mm; the length is that of rollers.
+    /// Dimensions of the rolling elements of a row, mm; the length is that of rollers.
     Elements {
-        /// How many a row has.
+        /// Number of elements per row.
         elements: u32,
-        /// Diameter.
+        /// Diameter of the elements.
         diameter: f64,
-        /// Length that presses.
+        /// Effective length in contact.
         length: f64,
-        /// Diameter of the circle of their centres.
+        /// Pitch diameter of the elements.
         pitch_diameter: f64,
     },
-    /// What catalogues say.
+    /// Catalogue data.
     Catalogue {
         /// Bore, mm.
         bore: f64,
@@ -286,23 +288,23 @@ pub enum RollingSize {
         /// C_0, N.
         static_rating: f64,
     },
-    /// What the standard of its designation says.
+    /// Boundary dimensions from the standard of its designation.
     Dimensions {
         /// Bore, mm.
         bore: f64,
         /// Outer diameter, mm.
         outer_diameter: f64,
-        /// Width, mm; of tapered rollers that of both rings together.
+        /// Width, mm; for tapered rollers that of both rings together.
         width: f64,
     },
 }
 
-/// How rows are set along the axis.
+/// Axial setting of the rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AxialPlay {
-    /// Way until a row touches, mm; below 0: pressed.
+    /// Axial distance until a row is in contact, mm; negative: preloaded.
     Clearance(f64),
-    /// Force that presses each row, N.
+    /// Preload force of each row, N.
     Preload(f64),
 }
 
@@ -311,15 +313,15 @@ pub enum AxialPlay {
 pub struct GearboxGear {
     /// Name.
     pub name: String,
-    /// Shaft.
+    /// Index of the shaft.
     pub shaft: usize,
     /// Mid-plane of the gear, mm from the shaft's z = 0.
     pub position: f64,
-    /// The cross-section that its bore moves with, mm from the shaft's z = 0.
+    /// Position of the cross-section with which its bore moves, mm from the shaft's z = 0.
     pub seat: f64,
-    /// Angle of tooth 0 against the mark of the shaft, rad.
+    /// Angle of tooth 0 relative to the mark of the shaft, rad.
     pub key: f64,
-    /// Mass (t), inertia about an axis across its own and about its own (t mm^2), where they are stated.
+    /// Mass (t), inertia about an axis perpendicular to its own and about its own (t mm^2), if given.
     pub inertia: [Option<f64>; 3],
 }
 
@@ -328,25 +330,25 @@ pub struct GearboxGear {
 pub struct GearboxMesh {
     /// Name.
     pub name: String,
-    /// The gears that are pinion and wheel of the scene.
+    /// Indices of the gears that are pinion and wheel of the scene.
     pub gears: [usize; 2],
-    /// What shape they are, how they are meshed and how contact is solved: a scene at rest of the model `reduced` with
-    /// slices. Its axes and mid-faces are where the shafts have them. Torque, driver and rotation are the gearbox's.
+    /// Geometry, meshes and contact of the gears: a static scene of the model `reduced` with slices. Its axes and
+    /// mid-faces follow from the shafts. Torque, driver and rotation are those of the gearbox.
     pub scene: Scene,
-    /// How its gears are set where the train closes a ring.
+    /// How its gears are set if the train has a closed loop.
     pub timing: MeshTiming,
 }
 
-/// Where the gearbox is driven.
+/// Input of a gearbox.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxInput {
-    /// Shaft.
+    /// Index of the shaft.
     pub shaft: usize,
-    /// mm from the shaft's z = 0.
+    /// Position, mm from the shaft's z = 0.
     pub position: f64,
-    /// Sense in which it turns.
+    /// Sense of rotation of the input.
     pub rotation: Sense,
-    /// What its torque is beside the mean, or in place of it, in a motion that it drives; none: constant.
+    /// Its torque over time, relative to the mean or instead of it, in a motion that it drives; `None`: constant.
     pub over_time: Option<TorqueScene>,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
@@ -355,31 +357,31 @@ pub struct GearboxInput {
 /// A load on a shaft, against its rotation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxTorque {
-    /// Shaft.
+    /// Index of the shaft.
     pub shaft: usize,
-    /// mm from the shaft's z = 0.
+    /// Position, mm from the shaft's z = 0.
     pub position: f64,
-    /// N mm, >= 0: at rest, and in motion where it does not change with time.
+    /// Torque, N mm, >= 0: in statics, and in motion if it does not change with time.
     pub torque: f64,
-    /// What it is in motion beside that, or in place of it; none: constant.
+    /// Torque in motion over time, relative to this value or instead of it; `None`: constant.
     pub over_time: Option<TorqueScene>,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
 }
 
-/// Vibration about equilibrium, order by order of the meshes.
+/// Vibration about the equilibrium, order by order of the meshes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxVibration {
-    /// Speeds of the input, first and last, 1/min.
+    /// First and last speed of the input, 1/min.
     pub speeds_rpm: [f64; 2],
-    /// How many of them, evenly spaced, 2 at least.
+    /// Number of speeds, evenly spaced, at least 2.
     pub speeds: u32,
-    /// Orders of each mesh.
+    /// Number of orders of each mesh.
     pub orders: u32,
     /// Damping ratio of all modes.
     pub damping_ratio: f64,
-    /// Natural frequencies that are told.
+    /// Number of natural frequencies in the results.
     pub modes: u32,
-    /// Whether the turn of the input is given; else it is free and has the inertia of its machine.
+    /// Whether the rotation of the input is given; otherwise it is free, with the inertia of the machine there.
     pub held_input: bool,
 }

@@ -1,4 +1,4 @@
-//! Which meshes carry load: teeth that nothing presses have no place to stand.
+//! Checks that meshes carry load: without load the position of the teeth is undefined.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! How many cycles the fastest mesh has in a turn of the input, by the numbers of teeth.
+//! Cycles of the fastest mesh per rotation of the input, from the numbers of teeth.
 
 use super::file::{GearboxGear, GearboxMesh};
 

@@ -1,4 +1,4 @@
-//! `[modes]` of a gearbox file: which normal modes of its gears move.
+//! `[modes]` of a gearbox file: the normal modes of its gears that can vibrate.
 
 use super::{
     motion::GearboxMotion,

@@ -1,4 +1,4 @@
-//! `[motion]` of a gearbox file: how the gearbox runs in time.
+//! `[motion]` of a gearbox file: the motion of the gearbox in time.
 
 use integrate::{Scheme, whole_cycles};
 use toml::Spanned;
@@ -16,85 +16,86 @@ const ROWS: u64 = 500_000;
 /// Least number of rows in a cycle of the fastest mesh: fewer have no peak to peak.
 const LEAST_ROWS: u32 = 4;
 
-/// How a gearbox runs in time, from its equilibrium on.
+/// Motion of a gearbox in time, from its equilibrium on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxMotion {
-    /// Speed of the input, 1/min: always, or at the start where a torque drives.
+    /// Speed of the input, 1/min: constant, or the initial speed if a torque drives.
     pub speed_rpm: f64,
-    /// Speed at the end, 1/min, of a motion at given speed that goes from one to another over all its cycles.
+    /// Final speed, 1/min, of a motion with a speed ramp over all its cycles.
     pub to_speed_rpm: Option<f64>,
-    /// What drives.
+    /// Drive of the input.
     pub drive: GearboxDrive,
-    /// Torque on the input, N mm, where a torque drives; none: what balances the loads.
+    /// Torque on the input, N mm, if a torque drives; `None`: the torque that balances the loads.
     pub input_torque: Option<f64>,
-    /// What stands for the meshes.
+    /// Model of the meshes.
     pub mesh: MeshModel,
-    /// Cycles of the fastest mesh, whole ones of `duration` where that is given.
+    /// Number of cycles of the fastest mesh; the whole cycles in `duration` if that is given.
     pub cycles: u32,
-    /// Length of the motion, s, if it is given: of a run-up, how long the speed changes.
+    /// Duration of the motion, s, if given; for a run-up, the duration of the speed ramp.
     pub duration: Option<f64>,
-    /// Steps a cycle of the fastest mesh.
+    /// Steps per cycle of the fastest mesh.
     pub steps_per_cycle: u32,
-    /// Steps a row.
+    /// Steps per row.
     pub steps_per_row: u32,
-    /// Cycles of the slowest mesh of one spectrum of the waterfall.
+    /// Number of cycles of the slowest mesh in one spectrum of the waterfall.
     pub waterfall_cycles: u32,
-    /// Method of integration.
+    /// Integration method.
     pub scheme: Scheme,
-    /// Local error of a step over the displacements at rest; none: steps of equal length.
+    /// Tolerance for the local error of a step, relative to the static displacements; `None`: steps of equal length.
     pub error_tolerance: Option<f64>,
-    /// Ends a step wherever contact is lost or gained.
+    /// Whether a step ends wherever contact is lost or gained.
     pub stop_at_events: bool,
-    /// Before the rows: difference after a common period of all meshes over the peak to peak that counts as none, and
-    /// cycles of the fastest mesh to wait for that at the most. None: rows begin in the equilibrium.
+    /// Settling before the rows: difference over a common period of all meshes, relative to the peak to peak, that
+    /// counts as periodic, and the largest number of cycles of the fastest mesh to wait. `None`: rows begin in the
+    /// equilibrium.
     pub settle: Option<(f64, u32)>,
-    /// Whether the motion that settles is taken to its periodic state by Newton's method.
+    /// Whether a settling motion is brought to its periodic state by Newton's method.
     pub shoots: bool,
     /// Damping of the meshes.
     pub mesh_damping: GearboxDamping,
     /// Damping ratio of every elastic mode.
     pub modal_damping_ratio: f64,
-    /// Highest frequency that shafts must show, Hz; none: four times that of the fastest mesh.
+    /// Highest frequency that shafts must represent, Hz; `None`: four times that of the fastest mesh.
     pub highest_frequency_hz: Option<f64>,
-    /// Error of maps that is aimed at, over the mean approach.
+    /// Target for the error of maps, relative to the mean approach.
     pub map_tolerance: f64,
-    /// Largest force of maps over the mean at rest.
+    /// Largest force of maps, relative to the static mean.
     pub map_overload: f64,
-    /// Cycles of the fastest mesh from one checkpoint to the next; 0: none.
+    /// Number of cycles of the fastest mesh between checkpoints; 0: no checkpoints.
     pub checkpoint_every_cycles: u32,
 }
 
 /// Damping of meshes in motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GearboxDamping {
-    /// Damping ratio of the gears turning against each other at a mesh.
+    /// Damping ratio of the gears of a mesh vibrating against each other.
     Ratio(f64),
-    /// N s/mm a mm of contact line.
+    /// Damping coefficient, N s/mm per mm of contact line.
     PerLength(f64),
 }
 
 /// The branch of periodic motions of a gearbox over the speed of its input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxBranch {
-    /// The motion at the speed where it begins: drive, meshes, damping, and how motions in time are run.
+    /// The motion at the first speed: drive, meshes, damping, and the settings of motions in time.
     pub motion: GearboxMotion,
-    /// Speed where it ends, 1/min.
+    /// Last speed, 1/min.
     pub to_speed_rpm: f64,
-    /// Common periods of all meshes after which a motion comes back.
+    /// Number of common periods of all meshes after which a motion repeats.
     pub periods: u32,
-    /// Harmonics of a cycle of the fastest mesh to begin with.
+    /// Initial number of harmonics per cycle of the fastest mesh.
     pub harmonics: u32,
-    /// The largest number of them.
+    /// Largest number of harmonics.
     pub most_harmonics: u32,
-    /// Largest share of the vibration that harmonics left out may have.
+    /// Largest share of the vibration that neglected harmonics may have.
     pub tail: f64,
-    /// Least number of phases of a cycle of the fastest mesh at which forces are evaluated.
+    /// Least number of phases per cycle of the fastest mesh at which forces are evaluated.
     pub phases: u32,
-    /// Longest step, in ranges of the speed and static deflections.
+    /// Longest step, in units of the speed range and of the static deflections.
     pub longest_step: f64,
     /// Largest number of motions.
     pub motions: u32,
-    /// Stable motions that are run in time.
+    /// Number of stable motions that are run in time.
     pub time_points: u32,
 }
 
@@ -105,7 +106,7 @@ pub(super) enum Asked {
 }
 
 impl Asked {
-    /// The motion in time, or that where the branch begins.
+    /// The motion in time, or that at the beginning of the branch.
     pub fn motion(&self) -> &GearboxMotion {
         match self {
             Self::Motion(motion) => motion,

@@ -1,4 +1,4 @@
-//! The gearbox that a pair is the short form of: two held shafts.
+//! The gearbox that is equivalent to a pair: two held shafts.
 
 use std::fmt::Write;
 
@@ -32,12 +32,13 @@ pub(super) struct Beside<'a> {
     pub of_load: String,
 }
 
-/// Text of the gearbox file whose one mesh is the pair of a scene in motion, on two held shafts, with its `[motion]`; each row of `steps_per_row` steps, which a pair takes from its mesh
-/// resonance. `None` where a gearbox of held shafts does not have what the scene asks for: gears on bearings,
-/// lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
+/// Text of the gearbox file with the pair of a moving scene as its only mesh, on two held shafts, with its `[motion]`.
+/// Each row has `steps_per_row` steps; a pair derives this number from its mesh resonance. `None` if a gearbox of held
+/// shafts does not support the scene: gears on bearings, lumped gears, a torque over time, a ramp, many speeds, a span
+/// in seconds.
 ///
 /// # Errors
-/// [`SceneError`]: gears that cannot be, as [`Scene::gear_pair`] has it.
+/// [`SceneError`] for impossible gears, as in [`Scene::gear_pair`].
 pub fn gearbox_of_moving_pair(scene: &Scene, steps_per_row: u32) -> Result<Option<String>, SceneError> {
     let Some(motion) = scene.motion.as_ref().and_then(|motion| moving(scene, motion, steps_per_row)) else {
         return Ok(None);

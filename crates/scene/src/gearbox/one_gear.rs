@@ -1,4 +1,4 @@
-//! A gear of several meshes is one gear: the scenes of all of them say the same of it.
+//! Checks that a gear with several meshes is described equally in the scenes of all of them.
 
 use geometry::GearData;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! Keys of the scenes of the pairs, set beside a gearbox file: `mesh.WHICH.scene.KEY`.
+//! Keys of the pairs' scenes, set in addition to a gearbox file: `mesh.WHICH.scene.KEY`.
 
 use crate::Setting;
 

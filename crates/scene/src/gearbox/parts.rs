@@ -1,4 +1,4 @@
-//! Parts of a gearbox file: how many of a kind, their names, and where on a shaft they are.
+//! Parts of a gearbox file: their number, names, and positions on shafts.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! Planets of a gearbox file: parts of the first planet stand for all of a stage, seen from its carrier.
+//! Planets of a gearbox file: the parts of the first planet stand for all planets of a stage, seen from the carrier.
 
 use std::f64::consts::TAU;
 
@@ -211,8 +211,8 @@ fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
 }
 
 impl WrittenOut {
-    /// Whether a part of a key means a mesh of a name: by its number in the file from 0, by its name, or by the name that
-    /// all planets have in common.
+    /// Whether a part of a key refers to a mesh with a given name: by its index in the file from 0, by its name, or by
+    /// the name that all planets have in common.
     pub fn means(&self, which: &str, mesh: usize, name: &str) -> bool {
         let own = &self.meshes[mesh];
         let number = which.parse().ok().filter(|n| self.meshes.iter().any(|own| own.place == *n));
@@ -226,7 +226,7 @@ impl WrittenOut {
         self.meshes.iter().filter(first).map(named).collect::<Vec<_>>().join(", ")
     }
 
-    /// Puts shafts and bearings of all planets in their places.
+    /// Positions the shafts and bearings of all planets.
     pub fn place(
         &self,
         s: &Source<'_>,
@@ -297,7 +297,7 @@ impl WrittenOut {
         Ok(())
     }
 
-    /// The planets of all tables, whose teeth go in and do not touch those of the next one.
+    /// The planets of all tables; checks that their teeth mesh and that neighbouring planets do not touch.
     pub fn planets(
         &self,
         s: &Source<'_>,

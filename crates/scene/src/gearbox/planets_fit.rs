@@ -1,4 +1,4 @@
-//! Whether planets of a gearbox file have room, and whether their teeth go in.
+//! Checks that planets of a gearbox file have room, and that their teeth can mesh.
 
 use std::f64::consts::{PI, TAU};
 
@@ -61,7 +61,7 @@ impl WrittenOut {
         Ok(())
     }
 
-    /// Checks that teeth of every planet meet gaps of all gears in the middle. Theory (85c).
+    /// Checks that teeth of every planet meet tooth spaces of all central gears. Theory (85c).
     ///
     /// ```text
     /// psi (z_a z_pb - z_b z_pa)/(2 pi gcd(z_pa, z_pb)) whole        z_b < 0 of a ring; z_p: teeth of the planet in mesh a and b

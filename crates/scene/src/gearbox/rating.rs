@@ -1,4 +1,4 @@
-//! The table of ratings of a gearbox file, and that nobody asks for one in vain.
+//! The rating table of a gearbox file; checks that a requested rating is possible.
 
 use super::{
     file::{GearboxBearing, GearboxMesh, GearboxRating, GearboxRolling},

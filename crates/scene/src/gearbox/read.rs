@@ -1,4 +1,4 @@
-//! From a file to a checked gearbox.
+//! Reads a file and makes a checked gearbox.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::{
 use crate::{Document, DocumentKind, SceneError, Setting, Source};
 
 impl Gearbox {
-    /// All keys of a gearbox file behind the names of their tables: `shaft.section.length_mm`.
+    /// All keys of a gearbox file with the names of their tables: `shaft.section.length_mm`.
     pub fn keys() -> Vec<String> {
         let of = |(table, keys): (String, Vec<&'static str>)| {
             let table = table.trim_matches(['[', ']']).to_owned();
@@ -23,24 +23,24 @@ impl Gearbox {
     /// Reads and checks a gearbox file and the scenes of its meshes.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the gearbox file or in a scene.
+    /// [`SceneError`]: the first error, with its place in the gearbox file or in a scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
         Document::read(file)?.gearbox(&[])
     }
 
-    /// Checks the text of a gearbox file; `file` is what messages name and what paths are relative to.
+    /// Checks the text of a gearbox file. `file` is used in messages, and paths are relative to its folder.
     ///
     /// # Errors
-    /// As [`Gearbox::read`].
+    /// The errors of [`Gearbox::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         Self::parse_with(text, file, &[])
     }
 
-    /// Gearbox of a text with some of its keys set otherwise: `gear.0.position_mm`, `vibration.speeds`. Of two settings
-    /// of a key the last one holds.
+    /// Gearbox of a text with some keys set to other values: `gear.0.position_mm`, `vibration.speeds`. If a key is set
+    /// twice, the last setting counts.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    /// [`SceneError`]: the first error, with its place in the file or the setting.
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         Document::new(text.to_owned(), file).gearbox(settings)
     }
@@ -53,10 +53,10 @@ impl Gearbox {
 }
 
 impl Document {
-    /// The gearbox that it is, with some of its keys set otherwise.
+    /// The gearbox of the document, with some keys set to other values.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    /// [`SceneError`]: the first error, with its place in the file or the setting.
     pub fn gearbox(&self, settings: &[Setting]) -> Result<Gearbox, SceneError> {
         let (of_pairs, own): (Vec<&Setting>, Vec<&Setting>) = settings.iter().partition(|s| is_of_pair(s));
         let own: Vec<Setting> = own.into_iter().cloned().collect();

@@ -1,4 +1,4 @@
-//! Rolling bearings of a gearbox file: what the catalogue or the drawing says.
+//! Rolling bearings of a gearbox file, from catalogue or drawing data.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Every key of a gearbox file once: type, range, default, meaning; and the words of a file, nothing checked yet. Checks take
+//! All keys of a gearbox file: type, range, default, meaning; and the raw, unchecked values of a file. Checks take
 //! ranges and defaults from here, and so does the JSON Schema.
 
 use crate::{

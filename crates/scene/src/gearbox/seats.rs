@@ -1,4 +1,4 @@
-//! Seats of bearings in shafts of a gearbox file, and shafts that stand: what cannot be together.
+//! Seats of bearings in shafts of a gearbox file, and shafts that do not rotate: impossible combinations.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! Shafts of a gearbox file: sections of its own, or those of a REXS file.
+//! Shafts of a gearbox file: their own sections, or those of a REXS file.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Values of a gearbox file: lists and matrices of a size, and words that must be there.
+//! Values of a gearbox file: lists and matrices of given size, and required words.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! A pair with all that it has beside its mesh, as far as a gearbox file can say it.
+//! A complete pair with everything besides its mesh, as far as a gearbox file can describe it.
 
 use std::fmt::Write;
 
@@ -7,23 +7,23 @@ use crate::{
     Axis, BearingScene, Driver, GearScene, Model, MotionScene, RampScene, Run, Scene, SceneError, TorqueScene,
 };
 
-/// A gearbox file of a pair, and what of the scene is not in it.
+/// A gearbox file of a pair, and the parts of the scene that are not in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxOfPair {
     /// Text of the file.
     pub text: String,
-    /// What the scene says and the file does not, each in words.
+    /// Parts of the scene that are not in the file, one text each.
     pub left: Vec<String>,
 }
 
-/// The gearbox file whose one mesh is the pair of a scene, on two shafts: held ones, or in the bearings of the scene. At rest
-/// held shafts agree with the pair to 1e-9, position by position.
+/// The gearbox file with the pair of a scene as its only mesh, on two shafts: held ones, or in the bearings of the
+/// scene. In statics held shafts agree with the pair to 1e-9, position by position.
 ///
-/// Friction, bodies, bearings of gears that are free in all five directions, and the motion of reduced and mapped pairs are in
-/// it. Steps between two rows are those of a rough mesh resonance.
+/// It includes friction, bodies, bearings of gears that are free in all five directions, and the motion of reduced and
+/// mapped pairs. The steps between two rows are those of an approximate mesh resonance.
 ///
 /// # Errors
-/// [`SceneError`]: gears that cannot be, as [`Scene::gear_pair`] has it.
+/// [`SceneError`] for impossible gears, as in [`Scene::gear_pair`].
 pub fn gearbox_of_pair(scene: &Scene) -> Result<GearboxOfPair, SceneError> {
     let scene = scene.standing_alone();
     let mut left = Vec::new();

@@ -1,4 +1,4 @@
-//! From the words of the tables on the cheaper models to what they mean.
+//! Checks raw values of the cheaper models' tables.
 
 use crate::schema::{Lumped8Scene, MeshScene, RawLumped8, RawLumped12, RawMesh, StiffnessFrom};
 use crate::source::Source;
@@ -43,7 +43,7 @@ pub(crate) struct Rung {
 }
 
 impl Rung {
-    /// Rung of a model, if it is one.
+    /// Rung of a model, if it has one.
     pub fn of(model: Model) -> Option<Self> {
         match model {
             Model::Lumped8 => Some(Self {

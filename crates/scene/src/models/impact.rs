@@ -1,4 +1,4 @@
-//! Words on the impact of rigid gears.
+//! Raw values of the impact model of rigid gears.
 
 use crate::schema::RawImpact;
 use crate::source::Source;

@@ -1,5 +1,4 @@
-//! What a scene says to the cheaper models of the pair, beside what it says to all: one table each, and one for the
-//! mesh.
+//! Tables of a scene for the cheaper models of the pair: one each, and one for the mesh.
 
 mod check;
 mod impact;
@@ -15,7 +14,7 @@ pub(super) use without_effect::{check_free_coordinates, check_in_time, check_tab
 use crate::schema::SupportScene;
 
 impl SupportScene {
-    /// Along and about x, y, z.
+    /// Stiffnesses along and about x, y, z.
     pub fn stiffnesses(&self) -> [f64; 6] {
         [
             self.stiffness_x_n_per_mm,
@@ -27,7 +26,7 @@ impl SupportScene {
         ]
     }
 
-    /// Likewise.
+    /// Damping along and about x, y, z.
     pub fn dampings(&self) -> [f64; 6] {
         [
             self.damping_x_ns_per_mm,

@@ -1,4 +1,4 @@
-//! The tables of a scene's model, those that are not written by their defaults.
+//! The tables of a scene's model, except those with only default values.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! Words on shafts.
+//! Raw values of shafts.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! Keys and tables that would have no effect on the scene's model: they are refused, not read and ignored.
+//! Keys and tables without effect on the scene's model. They are rejected instead of ignored.
 
 use std::ops::Range;
 

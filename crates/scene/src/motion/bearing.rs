@@ -1,4 +1,4 @@
-//! Bodies of the gears, and what holds them.
+//! Bodies of the gears, and their bearings.
 
 use crate::SceneError;
 use crate::schema::{Axis, BearingScene, BodyScene, RawBearing, RawBody};

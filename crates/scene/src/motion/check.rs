@@ -1,4 +1,4 @@
-//! From the words of the tables on motion to what they mean.
+//! Checks raw values of the tables for motion.
 
 use toml::Spanned;
 

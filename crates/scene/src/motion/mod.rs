@@ -1,4 +1,4 @@
-//! What a scene says of motion: bodies, bearings, drive, load, integration and analyses in time.
+//! Tables of a scene for motion: bodies, bearings, drive, load, integration and analyses in time.
 
 mod bearing;
 mod check;
@@ -16,12 +16,12 @@ pub(super) use modes::modes;
 pub(super) use torque::{begins_unloaded, beside_mean, drive, load};
 
 impl BearingScene {
-    /// Whether nothing is said.
+    /// Whether nothing is given.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Stiffnesses along and about x, y, z, rx, ry.
+    /// Stiffnesses along x, y, z and about rx, ry, in that order.
     pub fn stiffnesses(&self) -> [Option<f64>; 5] {
         [
             self.stiffness_x_n_per_mm,
@@ -32,7 +32,7 @@ impl BearingScene {
         ]
     }
 
-    /// Damping likewise.
+    /// Damping in the same order.
     pub fn dampings(&self) -> [Option<f64>; 5] {
         [
             self.damping_x_ns_per_mm,
@@ -44,12 +44,12 @@ impl BearingScene {
     }
 }
 
-/// What drives the driver.
+/// Drive of the driver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DriveScene {
-    /// What is given of the driver: its speed or its torque.
+    /// Prescribed quantity of the driver: its speed or its torque.
     pub by: DriveBy,
-    /// Torque of the driver in the running sense; nothing where its speed is given.
+    /// Torque of the driver in the running sense; empty if its speed is given.
     #[serde(flatten)]
     pub torque: TorqueScene,
 }
@@ -57,7 +57,7 @@ pub struct DriveScene {
 /// A torque over time. A table replaces mean, amplitude, frequency and phase.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct TorqueScene {
-    /// Mean, N m; `None`: the one that the rest of the scene asks for.
+    /// Mean, N m; `None`: the torque that follows from the rest of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_nm: Option<f64>,
     /// Amplitude of a harmonic part, N m.
@@ -69,13 +69,13 @@ pub struct TorqueScene {
     /// Phase of the cosine at t = 0, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_deg: Option<f64>,
-    /// Times (s, ascending) with torques (N m), straight lines between, held before and after.
+    /// Times (s, ascending) with torques (N m), interpolated linearly, constant before and after.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table_s_nm: Option<Vec<[f64; 2]>>,
 }
 
 impl TorqueScene {
-    /// Whether nothing is said.
+    /// Whether nothing is given.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }

@@ -1,4 +1,4 @@
-//! `[modes]`: which normal modes of the gears move beside the rigid bodies.
+//! `[modes]`: normal modes of the gears that vibrate in addition to the rigid bodies.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! Torques over time: what drives, and what is driven.
+//! Torques over time, of the drive and of the load.
 
 use toml::Spanned;
 

@@ -1,4 +1,4 @@
-//! From the words of an optimisation file to what they mean.
+//! Checks raw values of an optimisation file.
 
 use cases::{Axis, Cases, Sampling};
 use design::{Goal, Measure, Over};

@@ -7,59 +7,59 @@ use design::Goal;
 
 use crate::{Document, Scene, SceneError, Setting, plan::PlanAxis};
 
-/// A scene, what of it may change, and what shall be small.
+/// A scene, the keys that may change, and the goal to be minimised.
 #[derive(Debug, Clone)]
 pub struct Optimisation {
     /// Title.
     pub name: String,
-    /// Where it stands; the path of the scene is relative to its folder.
+    /// Path of the file; the path of the scene is relative to its folder.
     pub file: PathBuf,
     /// The scene.
     pub document: Document,
-    /// The scene without any design.
+    /// The scene of the drawing, without any design.
     pub drawn: Scene,
-    /// Keys that all designs have otherwise.
+    /// Keys that are set to other values in all designs.
     pub settings: Vec<Setting>,
-    /// What may change.
+    /// Parameters of the design.
     pub parameters: Vec<DesignParameter>,
-    /// Torques at which it counts; at least one.
+    /// Torques at which the goal is evaluated; at least one.
     pub torques: Vec<TorqueWeight>,
-    /// What shall be small.
+    /// Goal to be minimised.
     pub goal: Goal,
     /// Limit of the contact pressure, MPa.
     pub max_pressure_mpa: Option<f64>,
-    /// Limit of it at end faces and tip edges, MPa.
+    /// Limit of the contact pressure at end faces and tip edges, MPa.
     pub max_edge_pressure_mpa: Option<f64>,
-    /// Evaluations at the most.
+    /// Largest number of evaluations.
     pub evaluations: u32,
-    /// Points of the trade-off between the goal and the largest pressure; 0: none.
+    /// Number of points of the trade-off between the goal and the largest pressure; 0: none.
     pub front: u32,
-    /// Slices of all designs; `None`: each chooses its own.
+    /// Slices of all designs; `None`: each design chooses its own number.
     pub slices: Option<u32>,
-    /// Keys that scatter, and how samples of them are drawn; deviations from what the design says.
+    /// Keys with tolerances, as deviations from the design, and how their samples are drawn.
     pub tolerances: Vec<PlanAxis>,
-    /// How they are spread.
+    /// Sampling method.
     pub sampling: Sampling,
-    /// Samples of the deviations; one without deviations where nothing scatters.
+    /// Samples of the deviations; one sample without deviations if nothing varies.
     pub samples: Cases,
 }
 
-/// Keys of one value that may change.
+/// Keys that always have the same value, which may change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignParameter {
-    /// At least one; the first one names it.
+    /// The keys, at least one; the first one is the name.
     pub keys: Vec<String>,
     /// Lowest and highest value.
     pub bounds: [f64; 2],
-    /// Where the search begins.
+    /// Initial value of the search.
     pub start: f64,
-    /// Value of the document, where that lies outside of the bounds and the search begins at the nearer one.
+    /// Value in the document, if it is outside the bounds and the search begins at the nearer bound.
     pub outside: Option<f64>,
-    /// What values are whole multiples of in the end; 0: any.
+    /// Step of the final values, which are whole multiples of it; 0: no rounding.
     pub grain: f64,
 }
 
-/// A torque on the driven gear and what it counts.
+/// A torque on the driven gear and its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueWeight {
     /// Torque, N m.
@@ -69,19 +69,19 @@ pub struct TorqueWeight {
 }
 
 impl DesignParameter {
-    /// The key that it is named by.
+    /// The key that is its name.
     pub fn name(&self) -> &str {
         self.keys.first().map_or("", String::as_str)
     }
 
-    /// Checks that the search does not begin at the value of the document.
+    /// Message if the search does not begin at the value in the document.
     pub fn begins_elsewhere(&self) -> Option<String> {
         let Self { bounds: [low, high], start, .. } = self;
         let own = self.outside?;
         Some(format!("`{}` is {own}, outside of {low} .. {high}: the search begins at {start}", self.name()))
     }
 
-    /// A step that moves flanks by some 1e-5 mm, for differences.
+    /// A step that moves flanks by about 1e-5 mm, for differences.
     pub fn step(&self) -> f64 {
         let unit = |ending: &str| self.name().ends_with(ending);
         if unit("_um") {
@@ -151,23 +151,23 @@ impl Optimisation {
         self.drawn.number_at(key).ok_or_else(|| SceneError::NoKey { key: key.to_owned() })
     }
 
-    /// The scene of a design at a torque: of a sample, or as it is drawn.
+    /// The scene of a design at a torque: with the deviations of a sample, or nominal.
     ///
     /// # Errors
-    /// [`SceneError`]: what the scene does not allow.
+    /// [`SceneError`] if the scene does not permit the values.
     pub fn scene(&self, values: &[f64], torque_nm: f64, sample: Option<usize>) -> Result<Scene, SceneError> {
         self.document.scene(&self.settings_of(values, torque_nm, sample)?)
     }
 
-    /// The scene of a design as the file has it: at its own torque.
+    /// The scene of a design at the torque of the file.
     ///
     /// # Errors
-    /// As [`Optimisation::scene`].
+    /// The errors of [`Optimisation::scene`].
     pub fn own_scene(&self, values: &[f64]) -> Result<Scene, SceneError> {
         self.scene(values, self.drawn.operation.torque_nm, None)
     }
 
-    /// The values at which the search begins.
+    /// Initial values of the search.
     pub fn start(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.start).collect()
     }

@@ -1,5 +1,5 @@
-//! The file of an optimisation: which keys of a scene may change, what shall be small, over which torques and
-//! tolerances.
+//! Optimisation files: keys of a scene that may change, the goal, and the torques and tolerances over which it is
+//! evaluated.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! An optimisation of numbers: of a pair or a gearbox, at rest or in time; derivatives are by differences.
+//! An optimisation of headline values of a pair or a gearbox, in statics or in time; derivatives are computed by
+//! differences.
 
 use std::{
     f64::consts::FRAC_1_PI,
@@ -16,44 +17,44 @@ use toml::Spanned;
 
 use crate::{Document, Machine, Scene, SceneError, Setting, Source, gearbox::Gearbox, plan::PlanOutput, setting::path};
 
-/// A pair or a gearbox, what of it may change, and which numbers of its headline shall be small.
+/// A pair or a gearbox, its parameters, and the headline values to be minimised.
 #[derive(Debug, Clone)]
 pub struct NumberOptimisation {
     /// Title.
     pub name: String,
-    /// Where it stands; the path of the document is relative to its folder.
+    /// Path of the file; the path of the document is relative to its folder.
     pub file: PathBuf,
-    /// The pair or the gearbox.
+    /// Document of the pair or the gearbox.
     pub document: Document,
-    /// Keys that all designs have otherwise.
+    /// Keys that are set to other values in all designs.
     pub settings: Vec<Setting>,
-    /// What may change.
+    /// Parameters of the design.
     pub parameters: Vec<DesignParameter>,
-    /// Numbers whose mean absolute value shall be small; at least one.
+    /// Values whose mean magnitude is minimised; at least one.
     pub goals: Vec<PlanOutput>,
-    /// Numbers that shall not be larger than their limits.
+    /// Values with upper limits.
     pub limits: Vec<NumberLimit>,
-    /// Loads under which they count; at least one.
+    /// Loads under which they are evaluated; at least one.
     pub loads: Vec<NumberLoad>,
-    /// Evaluations at the most; each solves the design and one neighbour a parameter, under every load.
+    /// Largest number of evaluations. Each solves the design and one neighbour per parameter, under every load.
     pub evaluations: u32,
 }
 
-/// A load under which numbers count.
+/// A load under which values are evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NumberLoad {
-    /// Torque on the driven gear of a pair, or the first one of a gearbox, N m.
+    /// Torque on the driven gear of a pair, or the first torque of a gearbox, N m.
     pub torque_nm: f64,
-    /// What sets it beside the document; nothing where it is the document's own.
+    /// Settings that apply it to the document; empty for the document's own load.
     pub settings: Vec<Setting>,
 }
 
-/// A number and its limit.
+/// A value and its limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NumberLimit {
-    /// The number.
+    /// The value.
     pub output: PlanOutput,
-    /// What it may be at the most, above 0, in the unit of its key.
+    /// Upper limit, above 0, in the unit of its key.
     pub most: f64,
 }
 
@@ -61,10 +62,10 @@ pub struct NumberLimit {
 const STEP: f64 = 1e-3;
 
 impl NumberOptimisation {
-    /// The optimisation of a document that words say.
+    /// The optimisation of a document given by words of a command line.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, by the word that it is about.
+    /// [`SceneError`]: the first error, with the word that it concerns.
     pub fn of_scene(
         document: Document,
         settings: &[Setting],
@@ -143,12 +144,12 @@ impl NumberOptimisation {
         Ok(self)
     }
 
-    /// All numbers that are looked at: goals, then limits.
+    /// All values that are evaluated: goals, then limits.
     pub fn outputs(&self) -> Vec<PlanOutput> {
         self.goals.iter().cloned().chain(self.limits.iter().map(|limit| limit.output.clone())).collect()
     }
 
-    /// Names of the goals without the numbers of entries: their endings say the units.
+    /// Names of the goals without indices of entries; their endings give the units.
     pub fn goal_names(&self) -> impl Iterator<Item = &str> {
         self.goals.iter().map(|output| match output {
             PlanOutput::Headline(key) => key.split('.').rfind(|part| part.parse::<usize>().is_err()).unwrap_or(key),
@@ -156,45 +157,45 @@ impl NumberOptimisation {
         })
     }
 
-    /// The file of the pair or the gearbox.
+    /// Path of the file of the pair or the gearbox.
     pub fn scene_file(&self) -> &Path {
         self.document.file()
     }
 
-    /// The values at which the search begins.
+    /// Initial values of the search.
     pub fn start(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.start).collect()
     }
 
-    /// What a design sets beside the document.
+    /// Settings of a design in addition to the document.
     ///
     /// # Errors
-    /// [`SceneError::Setting`] for a key that is none.
+    /// [`SceneError::Setting`] for an unknown key.
     pub fn settings_of(&self, values: &[f64]) -> Result<Vec<Setting>, SceneError> {
         let each = self.parameters.iter().zip(values);
         let own = each.flat_map(|(p, value)| p.keys.iter().map(move |key| varied(key, *value)));
         self.settings.iter().cloned().map(Ok).chain(own).collect()
     }
 
-    /// The pair, or the gearbox, of a design.
+    /// The pair or the gearbox of a design.
     ///
     /// # Errors
-    /// [`SceneError`]: what the document does not allow.
+    /// [`SceneError`] if the document does not permit the values.
     pub fn machine(&self, values: &[f64]) -> Result<Machine, SceneError> {
         self.document.machine(&self.settings_of(values)?)
     }
 
-    /// The pair, or the gearbox, of a design under a load.
+    /// The pair or the gearbox of a design under a load.
     ///
     /// # Errors
-    /// [`SceneError`]: what the document does not allow.
+    /// [`SceneError`] if the document does not permit the values.
     pub fn machine_under(&self, values: &[f64], load: &NumberLoad) -> Result<Machine, SceneError> {
         let mut settings = self.settings_of(values)?;
         settings.extend(load.settings.iter().cloned());
         self.document.machine(&settings)
     }
 
-    /// The design beside one, a difference away along a parameter, within its bounds; and the difference.
+    /// The neighbouring design, one difference away along a parameter and within its bounds; and the difference.
     pub fn beside(&self, values: &[f64], parameter: usize) -> (Vec<f64>, f64) {
         let [lowest, highest] = self.parameters[parameter].bounds;
         let step = STEP * (highest - lowest);

@@ -1,4 +1,4 @@
-//! From a file, or from words, to a checked optimisation.
+//! Reads a file, or words of a command line, and makes a checked optimisation.
 
 use std::path::Path;
 
@@ -21,23 +21,23 @@ impl Optimisation {
     /// Reads and checks an optimisation file and the scene that it names.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the file or in the scene.
+    /// [`SceneError`]: the first error, with its place in the file or in the scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
         Self::of(&Document::read(file)?, &[])
     }
 
-    /// Checks the text of an optimisation file; `file` is what messages name and what paths are relative to.
+    /// Checks the text of an optimisation file. `file` is used in messages, and paths are relative to its folder.
     ///
     /// # Errors
-    /// As [`Optimisation::read`].
+    /// The errors of [`Optimisation::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         Self::of(&Document::new(text.to_owned(), file), &[])
     }
 
-    /// Checks a document; `settings`: keys of its scene that are set otherwise, behind those that it sets itself.
+    /// Checks a document. `settings` set keys of its scene, in addition to and after its own settings.
     ///
     /// # Errors
-    /// As [`Optimisation::read`].
+    /// The errors of [`Optimisation::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
         document.one_task()?;
         let own = own(document);
@@ -46,7 +46,7 @@ impl Optimisation {
         check(&source, &raw, (base(&source, &raw, document)?, settings))
     }
 
-    /// Whether a document is an optimisation, and whether it is one of any numbers.
+    /// Whether a document is an optimisation, and whether it optimises headline values.
     pub fn is_one(document: &Document) -> (bool, bool) {
         let is = document.has("optimise");
         let own = own(document);
@@ -54,10 +54,10 @@ impl Optimisation {
         (is, is && raw.is_ok_and(|raw| !listed(&raw.optimise.goal).is_empty()))
     }
 
-    /// The optimisation of a scene that a command line says.
+    /// The optimisation of a scene given by a command line.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, by the word that it is about.
+    /// [`SceneError`]: the first error, with the word that it concerns.
     pub fn of_scene(
         document: Document,
         settings: &[Setting],
@@ -141,11 +141,11 @@ fn base(s: &Source<'_>, raw: &RawOptimisation, document: &Document) -> Result<Do
 }
 
 impl NumberOptimisation {
-    /// Checks a document whose `[optimise]` has a `goal`; `settings`: keys that are set otherwise, behind those that it sets
-    /// itself.
+    /// Checks a document whose `[optimise]` has a `goal`. `settings` set keys in addition to and after its own
+    /// settings.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place.
+    /// [`SceneError`]: the first error, with its place.
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
         document.one_task()?;
         let own = own(document);

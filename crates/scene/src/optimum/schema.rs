@@ -1,4 +1,4 @@
-//! Every key of an optimisation once: type, range, default, meaning; and its words, nothing checked yet.
+//! All keys of an optimisation: type, range, default, meaning; and its raw, unchecked values.
 
 use crate::plan::SEED;
 

@@ -1,28 +1,28 @@
-//! What a command line says of an optimisation.
+//! Options of an optimisation on a command line.
 
 use super::DesignParameter;
 use crate::plan::{AxisValues, AxisWord};
 
-/// What a command line says of an optimisation.
+/// Options of an optimisation on a command line.
 #[derive(Debug, Clone, Default)]
 pub struct OptimisationWords<'a> {
-    /// Keys that may change, `KEY=FROM:TO`; a choice of tip reliefs and crowning without them.
+    /// Keys that may change, `KEY=FROM:TO`; by default a selection of tip reliefs and crowning.
     pub parameters: &'a [String],
-    /// Torques, N m; the scene's own without them.
+    /// Torques, N m; by default the scene's own.
     pub torques_nm: &'a [f64],
-    /// What shall be small.
+    /// Quantity to be minimised.
     pub measure: Option<&'a str>,
     /// Limit of the contact pressure, MPa.
     pub max_pressure_mpa: Option<f64>,
-    /// Limit of it at end faces and tip edges, MPa.
+    /// Limit of the contact pressure at end faces and tip edges, MPa.
     pub max_edge_pressure_mpa: Option<f64>,
-    /// Numbers of the headline that shall be small, in place of the transmission error.
+    /// Headline values to be minimised instead of the transmission error.
     pub goals: &'a [String],
-    /// Limits of numbers of the headline, `KEY=MOST`; with `goals`.
+    /// Limits of headline values, `KEY=MOST`; only with `goals`.
     pub limits: &'a [String],
-    /// Evaluations at the most.
+    /// Largest number of evaluations.
     pub evaluations: u32,
-    /// Points of the trade-off.
+    /// Number of points of the trade-off.
     pub front: u32,
 }
 

@@ -1,4 +1,4 @@
-//! From the words of a plan file to a plan. Every complaint is made here, before any work starts.
+//! Checks raw values of a plan file. All errors are found here, before any work starts.
 
 use cases::{Axis, Cases, CasesError, Design, Sampling};
 use toml::Spanned;

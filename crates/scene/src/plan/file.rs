@@ -7,61 +7,61 @@ use cases::{Cases, Sampling};
 use super::PitchTolerance;
 use crate::{Document, Machine, SceneError, Setting, study::Take};
 
-/// A pair or a gearbox, what of it is varied, and what is wanted of each case.
+/// A pair or a gearbox, its varied keys, and the values wanted of each case.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// Title.
     pub name: String,
-    /// Where it stands; the path of the scene is relative to its folder.
+    /// Path of the file; the path of the scene is relative to its folder.
     pub file: PathBuf,
-    /// What is varied.
+    /// Document that is varied.
     pub document: Document,
-    /// Keys that all cases have otherwise.
+    /// Keys that are set to other values in all cases.
     pub settings: Vec<Setting>,
-    /// What is varied.
+    /// The varied axes.
     pub axes: Vec<PlanAxis>,
-    /// How samples are spread; of no meaning where nothing is drawn.
+    /// Sampling method; not used if nothing is drawn.
     pub sampling: Sampling,
-    /// The cases.
+    /// The cases of the plan.
     pub cases: Cases,
-    /// What is wanted of each.
+    /// Values wanted of each case.
     pub outputs: Vec<PlanOutput>,
 }
 
-/// Keys that have one value.
+/// Keys that always have the same value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanAxis {
-    /// At least one; the first one names the axis.
+    /// The keys, at least one; the first one is the name of the axis.
     pub keys: Vec<String>,
-    /// Where it is the pitch deviations of a gear.
+    /// Pitch tolerance, if the axis is the pitch deviations of a gear.
     pub pitch: Option<PitchTolerance>,
 }
 
-/// A number of a case.
+/// A value of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlanOutput {
-    /// A number of the headline of `summary.json`, by its key; parts of it behind dots, entries of lists from 0.
+    /// A headline value of `summary.json`, by its key as a dotted path; list entries are counted from 0.
     Headline(String),
-    /// A number that is read off a column of `history.csv`.
+    /// A value computed from a column of `history.csv`.
     Column {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// What is taken of it.
+        /// Value that is computed.
         take: PlanTake,
     },
 }
 
-/// What is taken of a column.
+/// Value computed from a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlanTake {
     /// Over all rows.
     Of(Take),
-    /// Amplitude of a mesh harmonic, 1 ...
+    /// Amplitude of a mesh harmonic, starting with 1.
     Harmonic(u32),
 }
 
 impl PlanAxis {
-    /// The key that it is named by.
+    /// The key that is its name.
     pub fn name(&self) -> &str {
         self.keys.first().map_or("", String::as_str)
     }
@@ -86,14 +86,14 @@ const ORDERS: u32 = 1000;
 const HARMONIC: &str = "harmonic";
 
 impl PlanOutput {
-    /// The number that a word says: a key of the headline, or `TAKE(COLUMN)`.
+    /// Parses a key of the headline, or `TAKE(COLUMN)`.
     ///
     /// ```text
     /// peak_to_peak_ste_um     ste_harmonics_um.1     mean(ste_um)     harmonic(ste_um, 2)
     /// ```
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A text about the error.
     pub fn parse(word: &str) -> Result<Self, String> {
         let word = word.trim();
         let Some((take, rest)) = word.split_once('(') else {
@@ -130,7 +130,7 @@ impl PlanOutput {
 }
 
 impl Plan {
-    /// The scene file.
+    /// Path of the scene file.
     pub fn scene_file(&self) -> &Path {
         self.document.file()
     }
@@ -138,7 +138,7 @@ impl Plan {
     /// The settings of a case: its keys and their values.
     ///
     /// # Errors
-    /// [`SceneError::Setting`] for a key that is none.
+    /// [`SceneError::Setting`] for an unknown key.
     pub fn settings_of(&self, case: usize) -> Result<Vec<Setting>, SceneError> {
         let mut all = self.settings.clone();
         for (axis, value) in self.axes.iter().zip(self.cases.values(case)) {
@@ -147,16 +147,16 @@ impl Plan {
         Ok(all)
     }
 
-    /// What is told of a case, a number an axis: its value; of pitch deviations the total one of the gear, F_p, um.
+    /// Values of a case, one per axis; for pitch deviations the total cumulative deviation of the gear, F_p, um.
     pub fn values(&self, case: usize) -> Vec<f64> {
         let told = |(axis, value): (&PlanAxis, f64)| axis.pitch.as_ref().map_or(value, |pitch| pitch.total_um(value));
         self.axes.iter().zip(self.cases.values(case)).map(told).collect()
     }
 
-    /// The pair, or the gearbox, of a case.
+    /// The pair or the gearbox of a case.
     ///
     /// # Errors
-    /// [`SceneError`]: what its document does not allow.
+    /// [`SceneError`] if the document does not permit the values.
     pub fn machine(&self, case: usize) -> Result<Machine, SceneError> {
         self.document.machine(&self.settings_of(case)?)
     }

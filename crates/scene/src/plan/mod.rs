@@ -1,4 +1,4 @@
-//! A plan: which keys of a pair or a gearbox are varied, how, and which numbers of each case are wanted.
+//! Plans: the varied keys of a pair or a gearbox, the sampling, and the values wanted of each case.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! From a file, or from words, to a checked plan.
+//! Reads a file, or words of a command line, and makes a checked plan.
 
 use std::path::Path;
 
@@ -12,20 +12,20 @@ use super::{
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source, nearest};
 
-/// What a command line says of a plan.
+/// Options of a plan on a command line.
 #[derive(Debug, Clone, Default)]
 pub struct PlanWords<'a> {
     /// Varied keys.
     pub vary: &'a [String],
-    /// Wanted numbers: of the headline by their keys, of columns as `mean(ste_um)`.
+    /// Wanted values: of the headline by their keys, of columns as `mean(ste_um)`.
     pub outputs: &'a [String],
-    /// Wanted numbers that are read off columns.
+    /// Wanted values that are computed from columns.
     pub columns: &'a [PlanOutput],
-    /// Design, samples, seed.
+    /// Design of experiments.
     pub design: Option<&'a str>,
-    /// How many samples.
+    /// Number of samples.
     pub samples: Option<u32>,
-    /// Which ones.
+    /// Seed of the samples.
     pub seed: Option<u32>,
 }
 
@@ -33,33 +33,33 @@ impl Plan {
     /// Reads and checks a plan file and the scene that it names.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the plan file or in the scene.
+    /// [`SceneError`]: the first error, with its place in the plan file or in the scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
         Self::of(&Document::read(file)?, &[])
     }
 
-    /// Checks the text of a plan file; `file` is what messages name and what paths are relative to.
+    /// Checks the text of a plan file. `file` is used in messages, and paths are relative to its folder.
     ///
     /// # Errors
-    /// As [`Plan::read`].
+    /// The errors of [`Plan::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         Self::of(&Document::new(text.to_owned(), file), &[])
     }
 
-    /// Checks a document; `settings`: keys of its scene that are set otherwise, behind those that it sets itself.
+    /// Checks a document. `settings` set keys of its scene, in addition to and after its own settings.
     ///
     /// # Errors
-    /// As [`Plan::read`].
+    /// The errors of [`Plan::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
         let own = words_of(document)?;
         let (source, raw) = (own.source(), own.raw()?);
         check(&source, &raw, (base_of(&source, &raw, document)?, settings))
     }
 
-    /// The plan of a scene that a command line says.
+    /// The plan of a scene given by a command line.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, by the word that it is about.
+    /// [`SceneError`]: the first error, with the word that it concerns.
     pub fn of_scene(document: Document, settings: &[Setting], words: &PlanWords<'_>) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
         let (mut axes, mut kinds) = (Vec::new(), Vec::new());

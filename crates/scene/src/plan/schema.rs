@@ -1,4 +1,4 @@
-//! Every key of a plan once: type, range, default, meaning; and its words, nothing checked yet.
+//! All keys of a plan: type, range, default, meaning; and its raw, unchecked values.
 
 use super::{SectionEvery, Start};
 use crate::SweepWay;

@@ -1,4 +1,4 @@
-//! How the next value of a plan starts, and how often a section has a point.
+//! How each value of a plan starts, and the interval between points of a section.
 
 use crate::Scene;
 
@@ -29,7 +29,7 @@ choices! {
 }
 
 impl SectionEvery {
-    /// Mesh cycles from one point of a section to the next.
+    /// Number of mesh cycles between points of a section.
     pub fn cycles(self, scene: &Scene) -> u32 {
         match self {
             Self::MeshCycle => 1,

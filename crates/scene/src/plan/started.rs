@@ -1,4 +1,4 @@
-//! What a plan says whose values do not each start alone.
+//! Plans whose values depend on the preceding ones.
 
 use toml::Spanned;
 
@@ -10,37 +10,37 @@ use super::{
 };
 use crate::{Document, SceneError, Setting, SweepWay, Whole};
 
-/// A plan whose values do not each start alone: its words, with their ranges checked. What keys they name is told by who
-/// runs it.
+/// A plan whose values do not all start separately: its options with checked ranges. Whether its keys exist is checked
+/// by the analysis.
 #[derive(Debug, Clone)]
 pub struct StartedPlan {
-    /// Not [`Start::Each`].
+    /// Kind of start; not [`Start::Each`].
     pub start: Start,
-    /// What is varied.
+    /// Document that is varied.
     pub document: Document,
-    /// Keys that all values have otherwise.
+    /// Keys that are set to other values for all values of the plan.
     pub settings: Vec<Setting>,
-    /// Keys and their values, as behind `--vary`.
+    /// Keys and their values, as after `--vary`.
     pub keys: Vec<String>,
-    /// Column whose section is taken.
+    /// Column of the section.
     pub of: Option<String>,
-    /// Which way values are gone through; none: not said.
+    /// Directions in which values are taken; `None`: not given.
     pub ways: Vec<SweepWay>,
-    /// How often a section has a point.
+    /// Interval between points of a section.
     pub every: Option<SectionEvery>,
-    /// Points of a section.
+    /// Number of points of a section.
     pub cycles: Option<u32>,
-    /// Mesh cycles before it at the most.
+    /// Largest number of mesh cycles before the section.
     pub settle: Option<u32>,
-    /// Mesh cycles over which the largest Lyapunov exponent is found.
+    /// Number of mesh cycles over which the largest Lyapunov exponent is computed.
     pub lyapunov: Option<u32>,
 }
 
 impl StartedPlan {
-    /// What a document says of values that do not start each alone; `None` where they do.
+    /// The options of a document whose values do not all start separately; `None` if they do.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint about its words.
+    /// [`SceneError`]: the first error in its options.
     pub fn of(document: &Document, more: &[Setting]) -> Result<Option<Self>, SceneError> {
         let own = words_of(document)?;
         let (s, raw) = (own.source(), own.raw()?);

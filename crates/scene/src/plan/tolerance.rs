@@ -1,4 +1,4 @@
-//! Deviations that a tolerance class of ISO 1328-1 allows, as axes of a plan.
+//! Deviations within a tolerance class of ISO 1328-1, as axes of a plan.
 
 use cases::{Axis, Distribution, around_a_circle, spread};
 use geometry::{FlankTolerances, Gear};
@@ -9,7 +9,7 @@ use crate::{Scene, SceneError, Setting};
 /// Key of a gear's pitch deviations.
 const PITCH_ERRORS: &str = "pitch_errors_um";
 
-/// Pitch deviations of one gear: one draw is one gear from the machine.
+/// Pitch deviations of one gear; each draw is one manufactured gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PitchTolerance {
     /// Key of the pitch errors, with dots.

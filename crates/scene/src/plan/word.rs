@@ -1,20 +1,20 @@
-//! One axis in one word of a command line.
+//! One axis as a word of a command line.
 
 use cases::{Axis, Distribution};
 use geometry::TOLERANCE_CLASSES;
 
-/// Which values a word gives its keys.
+/// Values that a word gives its keys.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisValues {
-    /// Those that it says, or what they are drawn from.
+    /// The given values, or the distribution from which they are drawn.
     By(Axis),
-    /// Any between two ends, in the order in which they are written.
+    /// Any value between two limits, in the order written.
     Between([f64; 2]),
     /// Within a tolerance class of ISO 1328-1.
     Class(u32),
 }
 
-/// Keys and their values in one word; several keys, with `+` between, have the same value.
+/// Keys and their values in one word; several keys joined by `+` have the same value.
 ///
 /// ```text
 /// key=1,2,5              each of these            key~0:40                   drawn, uniform
@@ -25,22 +25,22 @@ pub enum AxisValues {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisWord {
-    /// At least one; the first one names the axis.
+    /// The keys, at least one; the first one is the name of the axis.
     pub keys: Vec<String>,
-    /// Their values.
+    /// Values of the keys.
     pub values: AxisValues,
 }
 
 impl AxisWord {
-    /// Reads a word.
+    /// Parses a word.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A text about the error.
     pub fn parse(word: &str) -> Result<Self, String> {
         axis(word).map(|(keys, values)| Self { keys, values })
     }
 
-    /// The values that it says; `None` where they are drawn, or any between two ends.
+    /// The values given; `None` if they are drawn, or any between two limits.
     pub fn list(&self) -> Option<&[f64]> {
         match &self.values {
             AxisValues::By(Axis::Each(values)) => Some(values),

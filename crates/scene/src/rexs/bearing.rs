@@ -7,7 +7,8 @@
 //! | `radial_roller_bearing`, `radial_needle_roller_bearing` | `cylindrical-roller` |
 //! | `radial_tapered_roller_bearing` | `tapered-roller` |
 //!
-//! What they take along the axis is `axial_force_absorption`; a `concept_bearing` is its stiffness.
+//! The axial directions that they support are in `axial_force_absorption`; a `concept_bearing` is given by its
+//! stiffness.
 
 use std::fmt::Write;
 

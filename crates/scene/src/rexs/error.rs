@@ -1,6 +1,6 @@
-//! What is refused of a REXS file.
+//! Errors of REXS files.
 
-/// Why no pair or shaft comes out of a REXS file.
+/// No pair or shaft can be made from a REXS file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RexsError {
@@ -13,45 +13,45 @@ pub enum RexsError {
     /// REXS as JSON (`.rexsj`).
     #[error("is JSON (`.rexsj`), wanted is REXS in XML (`.rexs`)")]
     Json,
-    /// It is no XML.
+    /// The file is not valid XML.
     #[error("is no XML: {0}")]
     Xml(#[from] roxmltree::Error),
-    /// An element that the reader of XML would take hours for.
+    /// An element with so many attributes that the XML reader would take hours.
     #[error("has an element of more than {most} attributes in line {line}")]
     Crowded {
-        /// Attributes that an element may have.
+        /// Largest permitted number of attributes.
         most: usize,
-        /// Line in which it begins, from 1.
+        /// Line at which the element begins, from 1.
         line: usize,
     },
-    /// It is XML of another kind.
+    /// The file is another kind of XML.
     #[error("is no REXS file: its root is <{root}>, not <model>")]
     Root {
-        /// Name of the root.
+        /// Name of the root element.
         root: String,
     },
-    /// It has no such stage.
+    /// The file does not have this stage.
     #[error("has {found} cylindrical stages, stage {asked} is wanted")]
     Stage {
-        /// Stages that it has.
+        /// Number of stages in the file.
         found: usize,
-        /// Counted from 1.
+        /// Stage requested, counted from 1.
         asked: usize,
     },
     /// A stage without its two gears.
     #[error("stage {stage} has no {role}")]
     Gear {
-        /// Counted from 1.
+        /// Stage, counted from 1.
         stage: usize,
-        /// `gear_1` or `gear_2`.
+        /// Missing gear, `gear_1` or `gear_2`.
         role: &'static str,
     },
-    /// It has no such load case.
+    /// The file does not have this load case.
     #[error("has {found} load cases, load case {asked} is wanted")]
     Case {
-        /// Load cases that it has.
+        /// Number of load cases in the file.
         found: usize,
-        /// Counted from 1.
+        /// Load case requested, counted from 1.
         asked: usize,
     },
     /// Two rings in one stage.
@@ -60,17 +60,17 @@ pub enum RexsError {
         /// Kind and number of the component.
         part: String,
     },
-    /// A part that the file says something of that cannot be taken as it is.
+    /// A part whose data cannot be used as given.
     #[error("{part} {what}")]
     Unfit {
-        /// Kind and number of the component; the whole file where it is of no part.
+        /// Kind and number of the component; the whole file if no part is concerned.
         part: String,
-        /// What cannot be taken.
+        /// Data that cannot be used.
         what: String,
         /// What to do about it.
         hint: String,
     },
-    /// A number that every part of its kind has.
+    /// A required value is missing.
     #[error("{part} has no `{attribute}`")]
     Missing {
         /// Kind and number of the component.
@@ -85,37 +85,37 @@ pub enum RexsError {
         part: String,
         /// Name of the attribute.
         attribute: &'static str,
-        /// As written.
+        /// The value as written.
         value: String,
-        /// As written.
+        /// The unit as written.
         unit: String,
-        /// Unit of the standard's data base.
+        /// Unit in the standard's data base.
         wanted: &'static str,
     },
-    /// A number of teeth that no gear has.
+    /// An invalid number of teeth.
     #[error("{part}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
     Teeth {
         /// Kind and number of the component.
         part: String,
-        /// As read.
+        /// The value as read.
         value: f64,
     },
-    /// A place or direction that is not three numbers.
+    /// A position or direction that does not have three values.
     #[error("{part}: `{attribute}` is not three finite numbers in {wanted}")]
     Vector {
         /// Kind and number of the component.
         part: String,
         /// Name of the attribute.
         attribute: &'static str,
-        /// Unit of the standard's data base.
+        /// Unit in the standard's data base.
         wanted: &'static str,
     },
-    /// No shaft of that name, or several to choose from.
+    /// No shaft with this name, or several to choose from.
     #[error("has no shaft {asked}: there are {found}")]
     Shaft {
-        /// Number or name that is asked for, with quotes; `to choose` where none is.
+        /// Number or name requested, with quotes; `to choose` if none was given.
         asked: String,
-        /// Numbers and names of those that are there.
+        /// Numbers and names of the shafts in the file.
         found: String,
     },
     /// A shaft without sections, or whose sections leave gaps.
@@ -126,20 +126,20 @@ pub enum RexsError {
         /// What is wrong with them.
         what: String,
     },
-    /// Two gears that are no external pair.
+    /// Two gears that do not form an external pair.
     #[error("the gears differ in {what}: {pinion} and {wheel}")]
     Pair {
-        /// In what.
+        /// Quantity that does not match.
         what: &'static str,
-        /// Gear 1.
+        /// Value of gear 1.
         pinion: f64,
-        /// Gear 2.
+        /// Value of gear 2.
         wheel: f64,
     },
 }
 
 impl RexsError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             Self::Read(e) if e.kind() == std::io::ErrorKind::InvalidData => {

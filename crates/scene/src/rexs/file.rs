@@ -1,4 +1,4 @@
-//! The text of a REXS file; what is packed is named.
+//! Reads the text of a REXS file; packed files are rejected by name.
 
 use std::{fs::File, io::ErrorKind, io::Read, path::Path};
 
@@ -11,7 +11,7 @@ const ZIP: [u8; 4] = *b"PK\x03\x04";
 /// The text of a REXS file (XML).
 ///
 /// # Errors
-/// [`RexsError::Packed`] for a zip archive (`.rexsz`), [`RexsError::Read`] for what is no text or cannot be read.
+/// [`RexsError::Packed`] for a zip archive (`.rexsz`), [`RexsError::Read`] if the file is not text or cannot be read.
 pub fn read_rexs(path: &Path) -> Result<String, RexsError> {
     read_text(path).map_err(|e| match e.kind() {
         ErrorKind::InvalidData if begins_as_zip(path) => RexsError::Packed,

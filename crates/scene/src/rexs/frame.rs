@@ -1,5 +1,5 @@
-//! Where shafts and parts of a REXS file stand in the axes of a gearbox file: z along the u axis of the first shaft, y along
-//! its w axis.
+//! Positions of shafts and parts of a REXS file in the axes of a gearbox file: z along the u axis of the first shaft, y
+//! along its w axis.
 
 use super::{
     RexsError,

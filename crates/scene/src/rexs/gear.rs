@@ -1,4 +1,4 @@
-//! What a REXS file states of a gear and its flanks.
+//! Data of a gear and its flanks in a REXS file.
 
 use super::{
     RexsError,

@@ -14,25 +14,25 @@ use super::{
 };
 use crate::{SceneError, gearbox::Gearbox};
 
-/// A gearbox out of a REXS file: the text of the gearbox file, and the scenes that it names.
+/// A gearbox from a REXS file: the text of the gearbox file, and the scenes that it names.
 #[derive(Debug, Clone)]
 pub struct RexsGearbox {
     /// The gearbox file.
     pub text: String,
-    /// File name and text of the scene of each stage, and the pair that it was made of.
+    /// File name and text of the scene of each stage, and the pair from which it was made.
     pub scenes: Vec<(String, String, RexsPair)>,
-    /// What the user should know of it.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
 }
 
 /// Parts of a kind at the most, as in a gearbox file.
 const PARTS: usize = 100;
 
-/// The gearbox of a REXS file under load case `case`, counted from 1; scenes are named after `stem`. `None` where no stage
-/// of the file is on shafts: it has pairs alone.
+/// The gearbox of a REXS file under load case `case`, counted from 1. Scenes are named after `stem`. `None` if no stage
+/// of the file is on shafts: then it contains only pairs.
 ///
 /// # Errors
-/// [`RexsError`]: where a part cannot be taken, for what is wrong would be another gearbox.
+/// [`RexsError`] if a part cannot be used, because the result would be a different gearbox.
 pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGearbox>, RexsError> {
     let document = parsed(text)?;
     let model = Model::of(&document)?;
@@ -99,10 +99,10 @@ fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
 }
 
 impl RexsGearbox {
-    /// The gearbox of these texts, as it will be read from `file`.
+    /// Checks the texts as the gearbox that will be read from `file`.
     ///
     /// # Errors
-    /// [`SceneError`], of which [`RexsGearbox::blamed`] says what it is in the REXS file.
+    /// [`SceneError`]; [`RexsGearbox::blamed`] gives its cause in the REXS file.
     pub fn check(&self, file: &Path) -> Result<Gearbox, SceneError> {
         let beside: Vec<_> = self.scenes.iter().map(|(name, text, _)| (name.clone(), text.clone())).collect();
         let whole = Gearbox::parse_beside(&self.text, file, &beside)?;
@@ -110,8 +110,8 @@ impl RexsGearbox {
         Ok(whole)
     }
 
-    /// What a complaint about the gearbox file or a scene of it says of the REXS file; `None` where it is about none of its
-    /// values.
+    /// The error in the REXS file that corresponds to an error in the gearbox file or one of its scenes; `None` if it
+    /// concerns no value from the REXS file.
     pub fn blamed(&self, error: &SceneError) -> Option<RexsError> {
         let crate::Place::Line(line) = error.place()? else { return None };
         let name = line.file.file_name()?.to_str()?;

@@ -1,4 +1,4 @@
-//! What a REXS file has beside what was taken of it, in words: each kind of component once.
+//! Parts of a REXS file that were not used, as text: each kind of component once.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,5 +1,5 @@
-//! Gear data from REXS files (Reusable Engineering EXchange Standard, rexs.info, versions 1.0 to 1.4 and on; XML), and
-//! pairs to them.
+//! Gear data from REXS files (Reusable Engineering EXchange Standard, rexs.info, versions 1.0 to 1.4 and later; XML),
+//! and pairs written as REXS files.
 //!
 //! | module | what it does |
 //! |---|---|

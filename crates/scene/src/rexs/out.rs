@@ -1,4 +1,4 @@
-//! Gear data as a REXS file (version 1.4, XML): what [`crate::read_pair`] reads, for programs that go on with a pair.
+//! Gear data as a REXS file (version 1.4, XML), in the form that [`crate::read_pair`] reads, for use in other programs.
 
 use std::fmt::Write;
 
@@ -9,9 +9,9 @@ const STAGE: u32 = 1;
 const GEARS: [u32; 2] = [2, 3];
 const FLANKS: [u32; 2] = [4, 5];
 
-/// The pair as a `cylindrical_stage` with two gears and their flanks, the axes along x, the wheel beside the pinion along
-/// z, each gear where its mid-face is. A ring is a `ring_gear` whose number of teeth and centre distance are below zero, as
-/// ISO 21771 has them, and whose diameters are without sign. Numbers read back to the same bits.
+/// The pair as a `cylindrical_stage` with two gears and their flanks. The axes are along x, the wheel is beside the
+/// pinion along z, and each gear is at its mid-face. A ring is a `ring_gear` with negative number of teeth and centre
+/// distance, as in ISO 21771, and with positive diameters. Numbers are read back with the same bits.
 pub fn rexs_of(pair: &GearPair) -> String {
     let mut t = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let version = env!("CARGO_PKG_VERSION");

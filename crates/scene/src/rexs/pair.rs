@@ -1,8 +1,8 @@
-//! A stage of a REXS file as a scene: gears, flanks, allowances, tools, steel, and the load where shafts and loads of the
-//! file say it.
+//! A stage of a REXS file as a scene: gears, flanks, allowances, tools, steel, and the load if shafts and loads of the
+//! file give it.
 //!
-//! A `cylindrical_stage` with its two gears and their flanks is needed. What is missing beside keeps its default; what the
-//! file has and a scene does not take is named.
+//! A `cylindrical_stage` with its two gears and their flanks is required. Other missing data keep their defaults; data
+//! of the file that a scene does not support are named.
 
 use roxmltree::Node;
 
@@ -15,19 +15,19 @@ use super::{
 };
 use crate::{Driver, SceneError, Sense, Starter, Steel};
 
-/// A pair out of a REXS file.
+/// A pair from a REXS file.
 #[derive(Debug, Clone)]
 pub struct RexsPair {
-    /// What the scene says.
+    /// Values of the scene.
     pub starter: Starter,
-    /// What the user should know of it: lines on what was chosen, and on what the file has and was not taken.
+    /// Remarks for the user: about chosen values, and about data of the file that were not used.
     pub remarks: Vec<String>,
-    /// Keys of the scene, and the part and attribute of the file that they come from.
+    /// Keys of the scene, each with the part and attribute of the file from which it comes.
     pub places: Vec<(String, String)>,
 }
 
-/// The pair of stage `stage` of a REXS file, under load case `case` (both counted from 1); what the file does not say is
-/// that of `from`.
+/// The pair of stage `stage` of a REXS file, under load case `case` (both counted from 1). Values that the file does
+/// not give are those of `from`.
 ///
 /// # Errors
 /// [`RexsError`].
@@ -304,8 +304,8 @@ fn loaded(
 }
 
 impl RexsPair {
-    /// What a complaint about the text of the pair's scene says of the REXS file; `None` where it is not about a value of
-    /// that.
+    /// The error in the REXS file that corresponds to an error in the text of the pair's scene; `None` if it concerns
+    /// no value from the REXS file.
     pub fn blamed(&self, text: &str, error: &SceneError) -> Option<RexsError> {
         let Some(crate::Place::Line(line)) = error.place() else { return None };
         let lines: Vec<&str> = text.lines().take(line.number).collect();

@@ -7,7 +7,7 @@
 //! | | `outer_diameter_begin`, `outer_diameter_end`, `inner_diameter_begin`, `inner_diameter_end` | mm |
 //! | `material`, referenced by the `shaft` | `elastic_modulus`, `poisson_ratio`, `density` | N / mm^2, none, kg / dm^3 |
 //!
-//! Where the shaft stands, what sits on it and what loads it is left alone.
+//! The position of the shaft, the parts on it and its loads are not read.
 
 use super::{
     RexsError,
@@ -17,7 +17,7 @@ use super::{
 /// A shaft of a REXS file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RexsShaft {
-    /// Length, outer and inner diameter of each section, mm, from its begin on; cones are steps.
+    /// Length, outer and inner diameter of each section, mm, from its beginning; cones are approximated by steps.
     pub sections: Vec<[f64; 3]>,
     /// Young's modulus, MPa.
     pub young_mpa: Option<f64>,
@@ -46,7 +46,7 @@ struct Section {
     inner: [f64; 2],
 }
 
-/// The shaft of a number or a name; without one the only shaft of the file.
+/// The shaft with a number or a name; without it the only shaft of the file.
 ///
 /// # Errors
 /// [`RexsError`].

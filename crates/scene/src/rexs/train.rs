@@ -1,4 +1,4 @@
-//! Shafts, stages and loads of a REXS file: speeds, and the torque that a stage carries. No losses.
+//! Shafts, stages and loads of a REXS file: speeds, and the torque of a stage. No losses.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The tables of a gearbox file, out of a REXS file.
+//! Writes the tables of a gearbox file from a REXS file.
 
 use std::{collections::BTreeMap, fmt::Write};
 

@@ -1,6 +1,6 @@
-//! Headline numbers that bounds are given for: `[accuracy]`.
+//! Headline values for which error bounds are given: `[accuracy]`.
 //!
-//! A new quantity is a row of `quantities!`; its value is taken from a result in `analysis`.
+//! A new quantity is a row of `quantities!`; `analysis` takes its value from a result.
 
 use serde::{Serialize, Serializer};
 
@@ -14,7 +14,8 @@ macro_rules! quantities {
         gearbox { $($own:ident: $own_key:ident, $own_unit:literal, $own_about:literal;)* }
         both { $($both:ident: $both_key:ident, $both_about:literal;)* }
     ) => {
-        /// A headline number that bounds are given for and that a scene or a gearbox may ask an accuracy of.
+        /// A headline value for which error bounds are given, and for which a scene or a gearbox may request an
+        /// accuracy.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Quantity {
             $(#[doc = concat!($about, ", ", $unit, ".")] $variant,)*
@@ -22,9 +23,9 @@ macro_rules! quantities {
         }
 
         impl Quantity {
-            /// All of a pair, in the order of tables.
+            /// All quantities of a pair, in the order of tables.
             pub const ALL: &'static [Self] = &[$(Self::$variant),*];
-            /// All of a gearbox, in the order of tables.
+            /// All quantities of a gearbox, in the order of tables.
             pub const OF_GEARBOX: &'static [Self] = &[$(Self::$both,)* $(Self::$own),*];
 
             /// Key of the quantity in `[accuracy]`.
@@ -40,7 +41,7 @@ macro_rules! quantities {
                 match self { $(Self::$variant => $unit,)* $(Self::$own => $own_unit,)* }
             }
 
-            /// What it is.
+            /// Description of the quantity.
             pub fn about(self) -> &'static str {
                 match self { $(Self::$variant => $about,)* $(Self::$own => $own_about,)* }
             }
@@ -117,10 +118,10 @@ quantities! {
 }
 
 impl Quantity {
-    /// Those of a pair in motion.
+    /// Quantities of a pair in motion.
     pub const OF_MOTION: [Self; 2] = [Self::RmsDte, Self::PeakToPeakDte];
 
-    /// Whether it is a number of a pair in motion, not of one at rest.
+    /// Whether it belongs to a pair in motion and not to a static pair.
     pub fn is_of_motion(self) -> bool {
         Self::OF_MOTION.contains(&self)
     }

@@ -1,4 +1,4 @@
-//! Micro-geometry of a gear: the keys of a flank, and what they are when each is within its range.
+//! Micro-geometry of a gear: the keys of a flank, and the checked values.
 //!
 //! A new kind of modification is a row of `flank_tables!` here, a line of `FlankScene::in_geometry`, and its formula in
 //! [`geometry::modification`].
@@ -163,13 +163,13 @@ static DRIVE_FLANK: Table = Table {
 static COAST_FLANK: Table =
     Table { about: "micro-geometry of the flanks behind them, in place of both", keys: FLANK_KEYS, needed: &[] };
 
-/// What is ground off the flanks that the torque presses, and off the others.
+/// Modification of the flanks that the torque loads, and of the opposite flanks.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ModificationScene {
-    /// Flanks that the torque presses.
+    /// Flanks loaded by the torque.
     #[serde(skip_serializing_if = "FlankScene::is_none")]
     pub drive: FlankScene,
-    /// Flanks behind them.
+    /// The opposite flanks.
     #[serde(skip_serializing_if = "FlankScene::is_none")]
     pub coast: FlankScene,
 }

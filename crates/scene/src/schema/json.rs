@@ -1,4 +1,4 @@
-//! Files of keys as JSON Schema, draft 2020-12: what editors complete and check TOML with.
+//! JSON Schema, draft 2020-12, of the files: editors use it to complete and check TOML.
 
 use serde_json::{Map, Value, json};
 
@@ -19,8 +19,8 @@ pub(crate) static DOCUMENTS: [(&str, &[&str], &Table); 5] = [
     ("pair", &[], &SCENE),
 ];
 
-/// The schema of every document: a pair, a gearbox (what is varied or optimised of them may stand in them), or a plan, an
-/// optimisation, a study of other documents. Each of them stands in `$defs` by its name.
+/// The schema of every document: a pair or a gearbox (which may contain what is varied or optimised), or a plan, an
+/// optimisation, a study of other documents. Each is in `$defs` by its name.
 ///
 /// ```
 /// let schema = scene::json_schema();

@@ -1,5 +1,5 @@
-//! Every key of a scene file once: type, range, default, meaning. Checks take ranges and defaults from here, and so
-//! does the JSON Schema.
+//! All keys of a scene file: type, range, default, meaning. Checks take ranges and defaults from here, and so does the
+//! JSON Schema.
 //!
 //! | module | tables |
 //! |---|---|
@@ -12,7 +12,7 @@
 //! | `rating` | whether the pair will hold |
 //! | `json` | all of them as JSON Schema |
 //!
-//! An enum whose values are words stands below the first row that takes them. Nothing here knows the checked scene.
+//! An enum of words is defined below the first row that uses it. Nothing here depends on the checked scene.
 
 mod accuracy;
 mod flank;
@@ -51,8 +51,7 @@ pub use scene::{
     PairScene, Reduction,
 };
 
-/// Every key of the scene file with dots before it: `pinion.modification.drive.tip_relief_um`,
-/// `pinion.shaft.discs.0.at_mm`.
+/// All keys of the scene file as dotted paths: `pinion.modification.drive.tip_relief_um`, `pinion.shaft.discs.0.at_mm`.
 pub fn all_keys() -> Vec<String> {
     let mut all = Vec::new();
     SCENE.walk("", &mut |path, table| {

@@ -32,10 +32,10 @@ choices! {
 }
 
 impl Axis {
-    /// All, in the order of the coordinates.
+    /// All axes, in the order of the coordinates.
     pub const ALL: [Self; 5] = [Self::X, Self::Y, Self::Z, Self::Rx, Self::Ry];
 
-    /// Number of the coordinate.
+    /// Index of the coordinate.
     pub fn number(self) -> usize {
         self as usize
     }
@@ -175,7 +175,7 @@ choices! {
 }
 
 impl Integration {
-    /// The method, generalised-alpha with a spectral radius at infinite frequency (default 0.9).
+    /// The method; for generalised-alpha with a spectral radius at infinite frequency (default 0.9).
     pub fn scheme(self, spectral_radius: Option<f64>) -> Scheme {
         match self {
             Self::Energy => Scheme::Energy,

@@ -1,4 +1,4 @@
-//! Whether the pair will hold: `[rating]`.
+//! Rating of the pair: `[rating]`.
 
 use rating::{Lubricants, Materials, Spectrum};
 

@@ -1,4 +1,4 @@
-//! The file itself, and the tables on pair, load, contact, analysis and output.
+//! The file itself, and the tables for pair, load, contact, analysis and output.
 
 use super::accuracy::{ACCURACY, RawAccuracy};
 use super::gear::{GEAR, MATERIAL, RawGear, RawMaterial, WHEEL};

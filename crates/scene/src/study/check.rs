@@ -1,4 +1,4 @@
-//! From the words of a study file to a study. Every complaint is made here, before any work starts.
+//! Checks raw values of a study file. All errors are found here, before any work starts.
 
 use toml::Spanned;
 

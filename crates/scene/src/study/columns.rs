@@ -1,11 +1,11 @@
-//! Which columns the rows of a scene will have: a misspelt one is told before hours of work, not after.
+//! Columns that the rows of a scene will have. A misspelt column is reported before hours of work and not after.
 
 use toml::Spanned;
 
 use super::StudyCase;
 use crate::{Scene, SceneError, Source, nearest};
 
-/// Columns that a scene's rows will have; `None` where only a run can tell.
+/// Columns that a scene's rows will have; `None` if only a run can tell.
 pub type ColumnsOf<'a> = &'a dyn Fn(&Scene) -> Option<Vec<String>>;
 
 /// Columns of single pairs go with the window, which is known when the motion begins.
@@ -36,7 +36,7 @@ pub(super) fn known(
     Ok(name.clone())
 }
 
-/// What may have been meant by a column that is not there.
+/// Hint about a column that does not exist: the column that was probably intended.
 pub fn column_advice(name: &str, all: &[&str]) -> Option<String> {
     Some(match nearest(name, all) {
         Some(near) => format!("did you mean \"{near}\"?"),

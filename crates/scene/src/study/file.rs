@@ -1,4 +1,4 @@
-//! The study file: which scenes, and what to draw of them.
+//! Study files: the scenes, and the figures to be drawn.
 
 use std::path::PathBuf;
 
@@ -11,19 +11,19 @@ use crate::Scene;
 pub struct Study {
     /// Title.
     pub name: String,
-    /// Where the file stands; paths in it are relative to its folder.
+    /// Path of the file; paths in it are relative to its folder.
     pub file: PathBuf,
-    /// What the value of a case is, with its unit: the axis of figures over it.
+    /// Name and unit of the cases' value: the axis of figures over it.
     pub parameter: String,
     /// The scenes, in the order of the file.
     pub cases: Vec<StudyCase>,
-    /// Numbers of each case: columns of the table, and a figure over the parameter each.
+    /// Values of each case: columns of the table, each with a figure over the parameter.
     pub quantities: Vec<StudyQuantity>,
-    /// Figures over time, a curve a case.
+    /// Figures over time, one curve per case.
     pub over_time: Vec<OverTime>,
     /// Figures of one case over mesh cycles, with correlations of every case.
     pub follow: Vec<Follow>,
-    /// The model with every degree of freedom, for the time that it takes.
+    /// Run of the model with all degrees of freedom, to compare its time.
     pub full: Option<FullRun>,
 }
 
@@ -32,31 +32,32 @@ pub struct Study {
 pub struct StudyCase {
     /// Name in tables and legends.
     pub label: String,
-    /// Place on the axis of the parameter.
+    /// Position on the axis of the parameter.
     pub value: f64,
-    /// The scene; of a refused case the one without what it sets.
+    /// The scene; for a rejected case the scene without the case's settings.
     pub scene: Scene,
-    /// Why the scene does not allow the values that the case sets: it has no result, and takes nothing from the others.
+    /// Error if the scene does not permit the values of the case. The case then has no result; other cases are not
+    /// affected.
     pub refused: Option<RefusedCase>,
 }
 
-/// A complaint about the values of a case.
+/// An error in the values of a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RefusedCase {
-    /// One line: what, where, what is allowed.
+    /// One line: the error, its place, and the permitted range.
     pub message: String,
     /// The line that is meant, with a mark below it.
     pub excerpt: Option<String>,
-    /// What to do next.
+    /// Hint: what to do next.
     pub hint: Option<String>,
 }
 
-/// A number that is read off a column of a case's rows.
+/// A value computed from a column of a case's rows.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct StudyQuantity {
     /// Column of `history.csv`.
     pub column: String,
-    /// What is taken of it.
+    /// Value that is computed.
     pub take: Take,
 }
 
@@ -79,34 +80,34 @@ choices! {
 pub struct OverTime {
     /// Column of `history.csv`.
     pub column: String,
-    /// The last so many mesh cycles; `None`: all that are written.
+    /// Number of the last mesh cycles to be drawn; `None`: all.
     pub cycles: Option<u32>,
 }
 
-/// One column beside others over mesh cycles, and how nearly it follows each of them.
+/// One column with others over mesh cycles, and its correlation with each of them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Follow {
-    /// Number of the case that is drawn.
+    /// Index of the case that is drawn.
     pub case: usize,
     /// Column of `history.csv`.
     pub column: String,
-    /// Columns that it may follow.
+    /// Columns with which it is correlated.
     pub beside: Vec<String>,
-    /// The last so many mesh cycles; `None`: all that are written.
+    /// Number of the last mesh cycles to be drawn; `None`: all.
     pub cycles: Option<u32>,
 }
 
-/// Positions of the whole model.
+/// Positions of the model with all degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct FullRun {
-    /// Number of the case.
+    /// Index of the case.
     pub case: usize,
-    /// Positions of a mesh cycle, at the most.
+    /// Largest number of positions in a mesh cycle.
     pub positions: u32,
 }
 
 impl Study {
-    /// Name of the folder of a case's own results, below the study's: its number and its label, letters and digits.
+    /// Folder of a case's own results in the study's folder: its number and its label, letters and digits.
     pub fn folder(&self, case: usize) -> String {
         let label: String = self.cases[case].label.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
         format!("{:02}-{}", case + 1, label.trim_matches('-'))
@@ -114,13 +115,13 @@ impl Study {
 }
 
 impl StudyQuantity {
-    /// Name with the unit that the column's name ends in.
+    /// Name with the unit in which the column's name ends.
     pub fn name(&self) -> String {
         format!("{}_{}", self.take.word(), self.column)
     }
 }
 
 impl Take {
-    /// All of them.
+    /// All values.
     pub const ALL: [Self; 4] = [Self::Mean, Self::PeakToPeak, Self::Least, Self::Largest];
 }

@@ -1,4 +1,4 @@
-//! The study file: which scenes, and what to draw of them.
+//! Study files: the scenes, and the figures to be drawn.
 //!
 //! | module | what it does |
 //! |---|---|

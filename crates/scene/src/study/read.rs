@@ -1,4 +1,4 @@
-//! From a file to a checked study.
+//! Reads a file and makes a checked study.
 
 use std::path::Path;
 
@@ -11,19 +11,20 @@ use super::{
 use crate::{Document, DocumentKind, SceneError, Setting, Source};
 
 impl Study {
-    /// Reads and checks a study file and the scenes that it names, all of them with the keys of `settings` set otherwise;
-    /// what a case sets itself holds before these. `columns` tells which columns the rows of a scene will have.
+    /// Reads and checks a study file and the scenes that it names, with the keys in `settings` set to other values in
+    /// all of them. A case's own settings have priority. `columns` gives the columns that the rows of a scene will
+    /// have.
     ///
     /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the study file, in a scene or in a setting.
+    /// [`SceneError`]: the first error, with its place in the study file, in a scene or in a setting.
     pub fn read(file: &Path, settings: &[Setting], columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
         Self::of(&Document::read(file)?, settings, columns)
     }
 
-    /// Checks the text of a study file; `file` is what messages name and what paths are relative to.
+    /// Checks the text of a study file. `file` is used in messages, and paths are relative to its folder.
     ///
     /// # Errors
-    /// As [`Study::read`].
+    /// The errors of [`Study::read`].
     pub fn parse(text: &str, file: &Path, settings: &[Setting], columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
         Self::of(&Document::new(text.to_owned(), file), settings, columns)
     }

@@ -1,4 +1,4 @@
-//! Every key of a study file once: type, range, default, meaning; and the words of a file, nothing checked yet.
+//! All keys of a study file: type, range, default, meaning; and the raw, unchecked values of a file.
 
 use super::file::Take;
 

@@ -1,4 +1,4 @@
-//! Writes the deck of one position.
+//! Writes the CalculiX input deck of one position.
 
 use std::fmt::Write;
 
@@ -11,36 +11,36 @@ use super::{
     elements::{Numbering, node_order},
 };
 
-/// One gear where it stands.
+/// One gear at its position.
 #[derive(Debug, Clone, Copy)]
 pub struct Body<'a> {
     /// The meshed gear, in its own frame.
     pub gear: &'a MeshedGear,
     /// Material of the gear.
     pub material: &'a Material,
-    /// Turn about its own axis, rad, +z.
+    /// Rotation about its own axis, rad, +z.
     pub angle: f64,
-    /// x and z of its centre, at mid-face, mm; y is 0.
+    /// x and z of its centre at mid-face, mm; y is 0.
     pub centre: [f64; 2],
 }
 
-/// Both gears at one position, the driven one loaded.
+/// Both gears at one position, with load on the driven one.
 #[derive(Debug, Clone, Copy)]
 pub struct Deck<'a> {
-    /// Pinion and wheel where they just touch without load.
+    /// Pinion and wheel at the pose at which they just touch without load.
     pub bodies: [Body<'a>; 2],
     /// Index of the driven gear.
     pub driven: usize,
-    /// Side of the teeth that the torque presses.
+    /// Side of the teeth loaded by the torque.
     pub side: Side,
     /// Pinion and wheel tooth of each pair that may touch.
     pub pairs: &'a [[u32; 2]],
-    /// Torque on the driven gear, N mm, > 0, against its motion.
+    /// Torque on the driven gear against its motion, N mm, > 0.
     pub torque: f64,
-    /// Angle by which the driven gear is turned into contact beforehand, rad, > 0: without contact its rotation would
-    /// have no stiffness. The mesh takes it back; it belongs to the result.
+    /// Angle by which the driven gear is rotated into contact beforehand, rad, > 0, because without contact its
+    /// rotation would have no stiffness. The mesh pushes it back; this motion is part of the result.
     pub closing: f64,
-    /// Pressure a mm of penetration, MPa/mm.
+    /// Penalty stiffness: pressure per penetration, MPa/mm.
     pub penalty: f64,
 }
 
@@ -60,7 +60,7 @@ impl Deck<'_> {
         self.bodies[self.driven].gear.numbering_sign() * self.side.sign()
     }
 
-    /// The whole deck; node and element numbers count through both gears from 1.
+    /// Text of the deck; node and element numbers count through both gears from 1.
     ///
     /// # Errors
     /// [`CalculixError::NoSuchElement`], [`CalculixError::MissingFlank`], [`CalculixError::MeanBore`],
@@ -121,8 +121,8 @@ impl Deck<'_> {
 }
 
 impl Body<'_> {
-    /// Cards of a gear: its nodes, elements and material, and the set `bore_NAME` of the nodes of its bore. Nodes and elements
-    /// are numbered on from `first`.
+    /// Cards of a gear: its nodes, elements and material, and the set `bore_NAME` of the nodes of its bore. Nodes and
+    /// elements are numbered from `first` on.
     ///
     /// # Errors
     /// [`CalculixError::NoSuchElement`].
@@ -157,7 +157,7 @@ impl Body<'_> {
         Ok(text)
     }
 
-    /// Card of the surface of one flank, of a gear whose elements are numbered on from `first_element`.
+    /// Card of the surface of one flank, for a gear whose elements are numbered from `first_element` on.
     ///
     /// # Errors
     /// [`CalculixError::MissingFlank`].

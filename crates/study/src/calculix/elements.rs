@@ -1,11 +1,11 @@
-//! Element names, node order and face numbers of CalculiX (those of Abaqus).
+//! Element names, node order and face numbers of CalculiX, which are those of Abaqus.
 
 use mesh::{ElementBlock, ElementKind, FaceTable, Mesh};
 
 use super::CalculixError;
 
-/// CalculiX's name of an element kind, the one that is nearest to this program's default variant: incompatible modes
-/// for linear bricks, full integration for quadratic ones.
+/// CalculiX's name of an element kind. It is the variant nearest to this program's default: incompatible modes for
+/// linear bricks, full integration for quadratic ones.
 ///
 /// # Errors
 /// [`CalculixError::NoSuchElement`] for hex27.

@@ -1,67 +1,67 @@
-//! What can go wrong between this program and CalculiX.
+//! Errors of the comparison with CalculiX.
 
 use std::path::PathBuf;
 
-/// No result came out of CalculiX.
+/// CalculiX gave no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CalculixError {
-    /// There is no program of that name.
+    /// No program of this name is installed.
     #[error("CalculiX is not installed: no `{program}` in PATH")]
     NotInstalled {
-        /// Name looked for.
+        /// Name that was searched.
         program: String,
     },
-    /// CalculiX has no such element.
+    /// CalculiX does not have this element.
     #[error("CalculiX has no element like {kind}")]
     NoSuchElement {
-        /// Kind in the mesh.
+        /// Element kind in the mesh.
         kind: &'static str,
     },
     /// A tooth of the pairs has no flank in its mesh.
     #[error("the {gear}'s mesh has no {side} flank of tooth {tooth}")]
     MissingFlank {
-        /// `pinion` or `wheel`.
+        /// Name of the gear, `pinion` or `wheel`.
         gear: &'static str,
-        /// `left` or `right`.
+        /// Side of the tooth, `left` or `right`.
         side: &'static str,
-        /// Tooth.
+        /// Number of the tooth.
         tooth: u32,
     },
-    /// The deck has rigid bores.
+    /// The gear has a distributing coupling, but the deck supports only rigid bores.
     #[error("the bore of the {gear} has the coupling `distributing`, and the deck has rigid bores")]
     MeanBore {
-        /// `pinion` or `wheel`.
+        /// Name of the gear, `pinion` or `wheel`.
         gear: &'static str,
     },
-    /// A value of the deck has no meaning.
+    /// A value of the deck is out of range.
     #[error("{name} is {value}, expected {expected}")]
     OutOfRange {
-        /// What, with its unit.
+        /// Name of the quantity, with its unit.
         name: &'static str,
-        /// What was given.
+        /// Value given.
         value: f64,
-        /// What would have a meaning.
+        /// The permitted range.
         expected: &'static str,
     },
     /// A file of the run cannot be written or read.
     #[error("{}: {source}", path.display())]
     File {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Cause of the failure.
         source: std::io::Error,
     },
-    /// It ended without results.
+    /// CalculiX ended without results.
     #[error("CalculiX ended without a result: {said}")]
     NoResult {
-        /// The last lines it printed.
+        /// The last lines that it printed.
         said: String,
     },
 }
 
 impl CalculixError {
-    /// What the user can do next.
+    /// Hint for the user: what to do next.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NotInstalled { .. } => {

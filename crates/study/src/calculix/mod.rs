@@ -1,13 +1,12 @@
-//! CalculiX as one more way to compute a position: a deck from the very meshes that this program uses, the run, what
-//! came out.
+//! CalculiX as another way to compute a position: an input deck from the same meshes, the run, and its results.
 //!
 //! ```text
 //! both gears at one position, their own meshes; pinion's centre at the origin, wheel's at (a, 0, 0)
 //! driver's bore nodes held; driven gear's bore a rigid body on its axis, with the torque
 //! window's tooth pairs: surface to surface, linear pressure-overclosure, frictionless, small displacement
 //! ```
-//! The gaps are those of the mesh's own faces, so linear elements show their facets here. CalculiX is a program of its
-//! own (`ccx`, GPL): it is started as a process where it is installed, nothing of it is linked.
+//! The gaps are those of the mesh's own faces, so linear elements show the effect of their facets. CalculiX is a
+//! separate program (`ccx`, GPL). It is started as a process if it is installed; none of it is linked.
 
 mod deck;
 mod elements;

@@ -2,12 +2,12 @@
 
 use super::Deck;
 
-/// One position as CalculiX solved it.
+/// Result of CalculiX at one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalculixResult {
-    /// Rotation of the driven gear from where the gears just touch without load, rad, positive when it lags.
+    /// Rotation of the driven gear from the pose at which the gears just touch without load, rad, positive if it lags.
     pub rotation: f64,
-    /// Forces of the pairs, in the deck's order.
+    /// Forces of the pairs, in the order of the deck.
     pub pairs: Vec<PairForce>,
 }
 
@@ -21,7 +21,7 @@ pub struct PairForce {
 }
 
 impl PairForce {
-    /// Size of the force, N.
+    /// Magnitude of the force, N.
     pub fn size(&self) -> f64 {
         self.force.iter().map(|f| f * f).sum::<f64>().sqrt()
     }

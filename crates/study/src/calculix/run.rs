@@ -1,4 +1,4 @@
-//! Starts CalculiX on a deck in a folder of its own.
+//! Runs CalculiX on a deck in a separate folder.
 
 use std::{
     fs,
@@ -21,9 +21,9 @@ pub struct Calculix {
 pub struct CalculixRun {
     /// Result of the run.
     pub result: CalculixResult,
-    /// Wall time of the process, s.
+    /// Wall-clock time of the process, s.
     pub wall_s: f64,
-    /// Largest resident set of the process, MB; `None` where the system does not tell.
+    /// Largest resident set of the process, MB; `None` if the operating system does not report it.
     pub peak_memory_mb: Option<f64>,
 }
 
@@ -33,18 +33,18 @@ const JOB: &str = "position";
 const LOOK: Duration = Duration::from_millis(20);
 
 impl Calculix {
-    /// Looks for `ccx` in PATH.
+    /// Searches for `ccx` in PATH.
     ///
     /// # Errors
-    /// [`CalculixError::NotInstalled`].
+    /// [`CalculixError::NotInstalled`] if it is not found.
     pub fn find(threads: usize) -> Result<Self, CalculixError> {
         Self::at(Path::new("ccx"), threads)
     }
 
-    /// A program by name or path; `threads` are what it may use.
+    /// A program by name or path; `threads` is the number of threads that it may use.
     ///
     /// # Errors
-    /// [`CalculixError::NotInstalled`] when it cannot be started.
+    /// [`CalculixError::NotInstalled`] if it cannot be started.
     pub fn at(program: &Path, threads: usize) -> Result<Self, CalculixError> {
         let started = Command::new(program).arg("-v").stdout(Stdio::null()).stderr(Stdio::null()).status();
         match started {
@@ -53,17 +53,17 @@ impl Calculix {
         }
     }
 
-    /// First line of what it says of its version.
+    /// First line of its version message.
     pub fn version(&self) -> Option<String> {
         let output = Command::new(&self.program).arg("-v").output().ok()?;
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         said.lines().map(str::trim).find(|l| !l.is_empty()).map(str::to_owned)
     }
 
-    /// Writes the deck into `folder`, runs it there and reads what came out.
+    /// Writes the deck into `folder`, runs it there and reads the results.
     ///
     /// # Errors
-    /// [`CalculixError`] of the deck, of a file, or [`CalculixError::NoResult`].
+    /// [`CalculixError`] of the deck or of a file; [`CalculixError::NoResult`].
     pub fn run(&self, deck: &Deck<'_>, folder: &Path) -> Result<CalculixRun, CalculixError> {
         let start = Instant::now();
         let (print, peak_memory_mb, said) = self.solve(&deck.text()?, folder)?;
@@ -72,8 +72,8 @@ impl Calculix {
         Ok(CalculixRun { result, wall_s, peak_memory_mb })
     }
 
-    /// Runs the text of any deck in `folder`: what it prints (its `.dat` file), the largest resident set (MB), and its last
-    /// words.
+    /// Runs any deck in `folder`. Returns its printed results (its `.dat` file), the largest resident set (MB), and its
+    /// last messages.
     ///
     /// # Errors
     /// [`CalculixError`] of a file.

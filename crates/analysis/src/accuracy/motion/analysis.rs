@@ -1,4 +1,4 @@
-//! A motion with bounds, by the cheapest model that keeps what is asked.
+//! A motion with error bounds, by the cheapest model that meets the requested accuracy.
 
 use scene::{Method, Run, Scene};
 
@@ -17,19 +17,19 @@ use crate::{
     motion::NoMotionSink,
 };
 
-/// The answer to a scene in motion, with bounds.
+/// Result of a scene in motion, with error bounds.
 #[derive(Debug)]
 pub struct AccurateMotionResult {
-    /// The scene as it was solved: of `model = "auto"` with the model, mesh, slices and steps that were taken.
+    /// The scene as solved; for `model = "auto"` with the chosen model, mesh, slices and steps.
     pub scene: Scene,
-    /// Rows and facts of the motion, [`RunInfo::accuracy`] among them.
+    /// Rows and facts of the motion, including [`RunInfo::accuracy`].
     pub answer: MotionAnswer,
 }
 
-/// A scene in motion that is to be solved with bounds.
+/// A scene in motion to be solved with error bounds.
 ///
-/// With `model = "auto"` the cheapest of `lumped12`, `reduced` and `reduced+modes` is taken that keeps what
-/// `[accuracy]` asks; of "reduced" and "reduced+modes" the bounds of the run are estimated.
+/// With `model = "auto"` the cheapest of `lumped12`, `reduced` and `reduced+modes` is used that meets `[accuracy]`. For
+/// "reduced" and "reduced+modes" the bounds of the run are estimated.
 #[derive(Clone, Copy)]
 pub struct AccurateMotion<'a> {
     scene: &'a Scene,
@@ -48,13 +48,13 @@ impl<'a> AccurateMotion<'a> {
         Self { scene, cache: &NoCache }
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// Solves it, telling nobody.
+    /// Solves it without progress reports.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -63,9 +63,9 @@ impl<'a> AccurateMotion<'a> {
         self.solve_into(&mut NoObserver, &mut told)
     }
 
-    /// Solves it; rows are told as they come, from the beginning at every run.
+    /// Solves it; rows are passed on as they are computed, again from the beginning at every run.
     ///
-    /// What cannot be kept by the finest is an answer all the same: [`Accuracy::is_met`] says so.
+    /// If the finest model does not meet the accuracy, its result is returned nevertheless; [`Accuracy::is_met`] tells.
     ///
     /// # Errors
     /// [`AnalysisError`].

@@ -1,4 +1,4 @@
-//! What the pair at rest says of its motion: harmonics that excite, the resonance, the lowest elastic frequencies.
+//! Properties of the static pair that determine its motion: exciting harmonics, resonance, lowest elastic frequencies.
 
 use std::f64::consts::TAU;
 
@@ -12,14 +12,14 @@ use crate::{
     options, reduced, statics::CycleAnalysis,
 };
 
-/// A pair at rest, as far as its motion is told from it.
+/// A static pair with the properties that determine its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairAtRest {
     /// Mesh frequency at the scene's speed, Hz.
     pub mesh_hz: f64,
-    /// Frequency of the inertias on the mean stiffness of the teeth, and its damping ratio.
+    /// Resonance of the inertias on the mean stiffness of the teeth, and its damping ratio.
     pub resonance: MeshResonance,
-    /// Lowest frequency of pinion and wheel, bore held and flanks free, Hz.
+    /// Lowest frequency of pinion and wheel with bore held and flanks free, Hz.
     pub elastic_hz: [f64; 2],
     /// Amplitudes of mesh harmonics 1, 2, ... of the quasi-static transmission error, um.
     pub amplitudes_um: Vec<f64>,
@@ -71,7 +71,7 @@ impl PairAtRest {
         })
     }
 
-    /// Pair at rest of a scene in motion, solved under its load without friction.
+    /// The static pair of a scene in motion, solved under its load without friction.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -81,17 +81,17 @@ impl PairAtRest {
         Self::new(scene, &analysis.solve()?)
     }
 
-    /// Mesh frequency over the resonance.
+    /// Mesh frequency divided by the resonance.
     pub fn speed_ratio(&self) -> f64 {
         self.mesh_hz / self.resonance.hz
     }
 
-    /// Mesh frequency over the lower of the lowest elastic frequencies.
+    /// Mesh frequency divided by the lower of the lowest elastic frequencies.
     pub fn elastic_ratio(&self) -> f64 {
         self.mesh_hz / self.elastic_hz[0].min(self.elastic_hz[1])
     }
 
-    /// By how much of itself the inertia of elastic deformation may change the motion: theory (63).
+    /// Largest relative change of the motion by the inertia of elastic deformation: theory (63).
     pub fn elastic_share(&self) -> f64 {
         ElasticChange::of(&self.amplitudes_um, [self.mesh_hz; 2], self.elastic_hz, self.resonance).share
     }

@@ -1,4 +1,4 @@
-//! Bounds of a run of a motion.
+//! Error bounds of a run of a motion.
 
 use std::f64::consts::TAU;
 
@@ -25,7 +25,7 @@ pub(super) struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// Bounds of all numbers of a motion, against what the scene asks.
+    /// Bounds of all values of a motion, compared with the accuracy that the scene requests.
     pub fn bounds(&self, scene: &Scene) -> Vec<Bound> {
         let bound = |q: &Quantity| Some(self.bound(*q)?.against(scene.accuracy.of(*q)));
         Quantity::OF_MOTION.iter().filter_map(bound).collect()

@@ -1,4 +1,4 @@
-//! The ladder of a motion: models, meshes and slices of the pair at rest, steps.
+//! The ladder of a motion: models, meshes and slices of the static pair, steps.
 
 use std::rc::Rc;
 
@@ -65,7 +65,7 @@ pub(super) struct MotionLadder<'a, 't> {
 }
 
 impl<'a, 't> MotionLadder<'a, 't> {
-    /// Ladder of a scene in motion that asks for an accuracy.
+    /// Ladder of a scene in motion with `[accuracy]`.
     pub fn new(scene: &'a Scene, cache: &'a dyn GearCache, told: &'a mut MotionTold<'t>) -> Self {
         Self { scene, kept: GearMemo::new(cache), told, base: None }
     }

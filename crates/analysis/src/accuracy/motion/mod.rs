@@ -1,9 +1,9 @@
-//! How exact is a motion, and which is the cheapest model that is exact enough?
+//! Error bounds of a motion, and the cheapest model that is accurate enough.
 //!
-//! A pair at rest tells how the meshes do ([`PairAtRest`]); a run of a model is held against one with half the steps; how
-//! far the cheaper models are from `reduced+modes` with fine steps was learnt from random pairs
-//! ([`MotionCalibration`]). [`AccurateMotion`] climbs the models until the bounds keep what a scene asks for. Theory,
-//! section 15.
+//! The static pair shows the errors of the meshes ([`PairAtRest`]). A run of a model is compared with one with half the
+//! steps. The difference of the cheaper models from `reduced+modes` with fine steps was calibrated on random pairs
+//! ([`MotionCalibration`]). [`AccurateMotion`] climbs the models until the bounds meet the accuracy that a scene
+//! requests. Theory, section 15.
 //!
 //! | file | question |
 //! |---|---|

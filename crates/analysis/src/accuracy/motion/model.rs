@@ -1,4 +1,4 @@
-//! Models of a motion, cheapest first, each of the same scene.
+//! Models of a motion, cheapest first, each for the same scene.
 
 use scene::{Model, Scene};
 use serde::Serialize;
@@ -6,10 +6,10 @@ use serde::Serialize;
 /// A model of the ladder in motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum MotionModel {
-    /// Twelve coordinates, linear, fed by the mesh cycle of the reduced model at rest.
+    /// Twelve coordinates, linear, with the mesh cycle of the static reduced model.
     #[serde(rename = "lumped12")]
     Lumped12,
-    /// Flanks of the tooth window, elasticity at once.
+    /// Flanks of the tooth window, with quasi-static elasticity.
     #[serde(rename = "reduced")]
     Reduced,
     /// Reduced gears with normal modes of both.
@@ -18,10 +18,10 @@ pub enum MotionModel {
 }
 
 impl MotionModel {
-    /// All models of the ladder, cheap to dear.
+    /// All models of the ladder, cheapest first.
     pub const ALL: [Self; 3] = [Self::Lumped12, Self::Reduced, Self::ReducedModes];
 
-    /// Model of a scene that says which; `None` for `auto`, and for models that no bounds are given of.
+    /// Model of a scene that names it; `None` for `auto`, and for models without error bounds.
     pub fn of(scene: &Scene) -> Option<Self> {
         match scene.analysis.model {
             Model::Reduced => Some(Self::Reduced),
@@ -30,7 +30,7 @@ impl MotionModel {
         }
     }
 
-    /// As `[analysis]` names it.
+    /// Name as in `[analysis]`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lumped12 => "lumped12",
@@ -39,7 +39,7 @@ impl MotionModel {
         }
     }
 
-    /// The next dearer one.
+    /// The next more expensive model.
     pub fn finer(self) -> Option<Self> {
         Self::ALL.iter().find(|m| **m > self).copied()
     }
@@ -50,7 +50,7 @@ impl MotionModel {
         if self == Self::ReducedModes { (of_resonance / 2).max(4) } else { of_resonance }
     }
 
-    /// Whether the model can stand for a scene: twelve coordinates without friction, the gears on fixed axes.
+    /// Whether the model is valid for a scene; twelve coordinates need no friction and gears on fixed axes.
     pub fn knows(self, scene: &Scene) -> bool {
         let fixed = |gear: &&scene::GearScene| gear.body.as_ref().is_none_or(|b| b.free.is_empty());
         self != Self::Lumped12 || (scene.gears().iter().all(fixed) && scene.contact.friction == 0.0)

@@ -1,4 +1,4 @@
-//! Scenes of the models of a motion.
+//! Makes the scenes of the models of a motion.
 
 use scene::{
     AccuracyScene, Axis, BearingScene, BodyScene, DriveBy, DriveScene, Driver, Lumped12Scene, MeshScene, Model,
@@ -22,7 +22,8 @@ const MODES: u32 = 6;
 const MODE_DAMPING: f64 = 0.01;
 
 impl MotionModel {
-    /// A scene in motion as one of this model that asks for no accuracy, with so many steps in a period of the resonance.
+    /// A scene in motion as one of this model without `[accuracy]`, with a given number of steps in a period of the
+    /// resonance.
     pub fn scene(self, scene: &Scene, rest: &PairAtRest, steps_per_resonance: u32) -> Scene {
         let mut own = Scene { accuracy: AccuracyScene::default(), ..scene.clone() };
         if let Some(motion) = &mut own.motion {

@@ -1,4 +1,4 @@
-//! What errors of the pair at rest become in motion.
+//! Effect of errors of the static pair on its motion.
 
 use std::f64::consts::SQRT_2;
 
@@ -6,15 +6,15 @@ use scene::Quantity;
 
 use super::PairAtRest;
 
-/// What bounds of the pair at rest make of the bound of a number of its motion, um. Theory (65).
+/// Contribution of the static pair's bounds to the bound of a value of its motion, um. Theory (65).
 ///
 /// ```text
 /// m = B sum_k A_k R(rho_k) / sum_k A_k + 2 sum_k A_k max |R(rho_k / sqrt(1 +- kappa)) - R(rho_k)|
 /// R(rho) = 1 / |1 - rho^2 + 2 i zeta rho|,   rho_k = k f_m / f_0
 /// ```
-/// A_k harmonics of the quasi-static transmission error, B bound of its peak to peak (um), kappa bound of the mean
-/// tangent stiffness over itself: what moves the resonance f_0. The first part is what is excited wrongly, the second
-/// what answers wrongly. The root mean square takes 1 / (2 sqrt 2) of it, as that of one harmonic does.
+/// A_k are harmonics of the quasi-static transmission error, B is the bound of its peak to peak (um), kappa the
+/// relative bound of the mean tangent stiffness, which shifts the resonance f_0. The first part is the error of the
+/// excitation, the second that of the response. The root mean square takes 1 / (2 sqrt 2) of it, as for one harmonic.
 pub fn mesh_bound(quantity: Quantity, rest: &PairAtRest, peak_to_peak_bound_um: f64, stiffness_bound: f64) -> f64 {
     let (mut excited, mut answered, mut all) = (0.0, 0.0, 0.0);
     for (i, amplitude) in rest.amplitudes_um.iter().enumerate() {

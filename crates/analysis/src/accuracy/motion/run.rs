@@ -1,4 +1,4 @@
-//! A run of a model, and the numbers that bounds are given of.
+//! A run of a model, and the values for which bounds are given.
 
 use scene::{Quantity, Scene};
 
@@ -8,11 +8,11 @@ use crate::{
     motion::{MotionAnalysis, MotionOutcome, MotionResult, MotionSink, NoMotionSink},
 };
 
-/// What is told of a run as it comes; each model has its own rows.
+/// Sinks for the rows of a run; each model has rows of its own.
 pub struct MotionTold<'a> {
-    /// Sink of the rows of reduced gears.
+    /// Sink for the rows of reduced gears.
     pub motion: &'a mut dyn MotionSink,
-    /// Sink of the rows of lumped gears.
+    /// Sink for the rows of lumped gears.
     pub lumped: &'a mut dyn LumpedSink,
 }
 
@@ -22,25 +22,25 @@ impl std::fmt::Debug for MotionTold<'_> {
     }
 }
 
-/// The answer of a model.
+/// Result of a model.
 #[derive(Debug)]
 pub enum MotionAnswer {
-    /// Answer of twelve coordinates.
+    /// Result of the model with twelve coordinates.
     Lumped(Box<LumpedResult>),
-    /// Answer of reduced gears, with modes or without.
+    /// Result of reduced gears, with or without modes.
     Reduced(Box<MotionResult>),
 }
 
-/// Numbers of a motion that bounds are given of.
+/// Values of a motion for which bounds are given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionSample {
     /// Root mean square of the dynamic transmission error about its mean, um.
     pub rms_um: f64,
     /// Peak to peak of the dynamic transmission error, um.
     pub peak_to_peak_um: f64,
-    /// Least sum of the normal forces over the mean: at zero and below the flanks lose contact.
+    /// Smallest sum of the normal forces divided by the mean; at zero and below the flanks lose contact.
     pub least_force: f64,
-    /// How nearly the motion repeats itself, over the peak to peak; `None`: nobody looked.
+    /// Residual of the periodicity, relative to the peak to peak; `None` if it was not computed.
     pub periodicity: Option<f64>,
 }
 
@@ -76,7 +76,7 @@ impl MotionAnswer {
         }
     }
 
-    /// Runs a scene without telling anybody.
+    /// Runs a scene without passing its rows on.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -84,7 +84,7 @@ impl MotionAnswer {
         Self::of(scene, cache, observer, &mut MotionTold { motion: &mut NoMotionSink, lumped: &mut NoLumpedSink })
     }
 
-    /// Estimated change of the peak to peak by the steps, %; `None` where there is no estimate.
+    /// Estimated change of the peak to peak by the steps, %; `None` if there is no estimate.
     pub fn step_error_percent(&self) -> Option<f64> {
         match self {
             Self::Lumped(result) => result.headline.certificate.step_error_percent,
@@ -92,7 +92,7 @@ impl MotionAnswer {
         }
     }
 
-    /// Headline numbers of the motion.
+    /// Headline values of the motion.
     pub fn sample(&self) -> MotionSample {
         // Both headlines have the same names for them.
         macro_rules! sample {

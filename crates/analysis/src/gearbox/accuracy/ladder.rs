@@ -35,10 +35,10 @@ pub(super) struct GearboxLadder<'a> {
 }
 
 impl<'a> GearboxLadder<'a> {
-    /// Of a gearbox that asks for an accuracy.
+    /// Ladder of a gearbox with `[accuracy]`.
     ///
     /// # Errors
-    /// [`AnalysisError`] where meshes and shafts do not fit each other.
+    /// [`AnalysisError`] if meshes and shafts do not match.
     pub fn new(
         file: &'a Gearbox,
         models: &'a SharedModels<'a>,

@@ -1,8 +1,8 @@
-//! How exact are the numbers of a gearbox at rest, and which settings are exact enough?
+//! Error bounds of static gearbox values, and settings that are accurate enough.
 //!
-//! A run is held against others of the same gearbox: on coarser meshes, with half the slices, positions and shaft
-//! elements. What random pairs have taught of errors holds for every mesh under its mean load and misalignment. Theory,
-//! section 15.
+//! A run is compared with others of the same gearbox: on coarser meshes, with half the slices, positions and shaft
+//! elements. The error laws calibrated on random pairs are used for every mesh under its mean load and misalignment.
+//! Theory, section 15.
 //!
 //! | file | question |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What laws of pairs say of the meshes of a gearbox.
+//! Laws of pairs, applied to the meshes of a gearbox.
 
 use gearbox::Train;
 use gearbox::mesh_numbers::mean;

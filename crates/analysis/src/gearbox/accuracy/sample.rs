@@ -1,4 +1,4 @@
-//! The numbers of a gearbox at rest that bounds are given for.
+//! The static gearbox values for which bounds are given.
 
 use gearbox::mesh_numbers::{MeshNumbers, mean_force};
 use std::f64::consts::TAU;
@@ -17,7 +17,7 @@ pub(super) struct Which {
 }
 
 impl Which {
-    /// Name of its mesh or bearing; `None` for a number of the whole.
+    /// Name of its mesh or bearing; `None` for a value of the whole gearbox.
     pub fn name(self, file: &Gearbox) -> Option<String> {
         match self.quantity {
             Quantity::NaturalFrequency => None,
@@ -35,7 +35,7 @@ pub(super) struct Sample(Vec<(Which, f64)>);
 type OfMesh = (Quantity, fn(&MeshNumbers) -> f64);
 
 impl Sample {
-    /// Of every `stride`-th position of a result, from position `first` on.
+    /// Values of every `stride`-th position of a result, starting with position `first`.
     pub fn of(result: &GearboxResult, stride: usize, first: usize) -> Self {
         let positions: Vec<GearboxPosition> = result.positions.iter().skip(first).step_by(stride).cloned().collect();
         let slices = result.meshes.iter().map(|mesh| mesh.slices);
@@ -62,17 +62,17 @@ impl Sample {
         Self(all.chain(result.vibration.as_ref().map(frequency)).collect())
     }
 
-    /// All numbers, in their order.
+    /// All values in order.
     pub fn all(&self) -> impl Iterator<Item = (Which, f64)> + '_ {
         self.0.iter().copied()
     }
 
-    /// The value of a number; NaN where the run does not have it.
+    /// The value; NaN if the run does not contain it.
     pub fn get(&self, which: Which) -> f64 {
         self.0.iter().find(|(own, _)| *own == which).map_or(f64::NAN, |(_, value)| *value)
     }
 
-    /// Takes the numbers of a quantity from another sample.
+    /// Takes the values of a quantity from another sample.
     pub fn take(&mut self, quantity: Quantity, other: &Self) {
         let own = self.0.iter_mut().filter(|(which, _)| which.quantity == quantity);
         own.for_each(|(which, value)| *value = other.get(*which));

@@ -1,4 +1,4 @@
-//! What is seen of the error of a solved gearbox, and the bounds of its numbers.
+//! Error indicators of a solved gearbox, and the bounds of its values.
 
 use std::collections::BTreeSet;
 
@@ -56,7 +56,7 @@ fn left(d: f64, ratio: f64, order: i32) -> f64 {
 }
 
 impl Seen<'_> {
-    /// Bounds of all numbers against what is asked.
+    /// Bounds of all values, compared with the requested accuracy.
     pub fn bounds(&self) -> Vec<Bound> {
         let asked = &self.file.accuracy;
         let all = self.own.all().filter(|(_, value)| value.is_finite());
@@ -139,7 +139,7 @@ impl Seen<'_> {
         Some(self.pairs.iter().zip(shares).filter_map(of).sum())
     }
 
-    /// What bounds do not cover, in words, one each.
+    /// Effects that the bounds do not cover, one text each.
     pub fn not_covered(&self) -> Vec<String> {
         let mut all: Vec<String> = Vec::new();
         let mut known = BTreeSet::new();

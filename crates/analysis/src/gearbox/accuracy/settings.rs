@@ -1,4 +1,4 @@
-//! How finely a gearbox is solved.
+//! Discretisation settings of a gearbox solution.
 
 use scene::{Scene, gearbox::Gearbox};
 
@@ -34,7 +34,7 @@ pub(super) struct Free {
 }
 
 impl Free {
-    /// Of a gearbox.
+    /// Settings of a gearbox.
     pub fn of(file: &Gearbox) -> Self {
         let counts =
             ["order", "elements_profile", "elements_fillet", "elements_thickness", "elements_face", "elements_rim"];
@@ -50,7 +50,7 @@ impl Free {
 }
 
 impl Settings {
-    /// Those that are tried first; `scenes` of the meshes with their slices.
+    /// Settings to try first; `scenes` are those of the meshes with their slices.
     pub fn first(file: &Gearbox, free: &Free, scenes: &[Scene]) -> Self {
         Self {
             rungs: free.meshes.iter().map(|free| free.then_some(FIRST)).collect(),
@@ -61,7 +61,7 @@ impl Settings {
         }
     }
 
-    /// The gearbox with these settings, which asks for no accuracy.
+    /// The gearbox with these settings, without `[accuracy]`.
     pub fn gearbox(&self, file: &Gearbox) -> Gearbox {
         let mut own = Gearbox { accuracy: Default::default(), ..file.clone() };
         for ((mesh, rung), slices) in own.meshes.iter_mut().zip(&self.rungs).zip(&self.slices) {
@@ -74,13 +74,13 @@ impl Settings {
         own
     }
 
-    /// The rung of the meshes that are the program's.
+    /// The rung of the meshes that the program chooses.
     pub fn rung(&self) -> Option<Rung> {
         self.rungs.iter().flatten().next().copied()
     }
 
-    /// Meshes that are given stand on a rung each: their own where they are one of the ladder with a coarser one below it,
-    /// else [`FIRST`]. The same settings where no mesh is given.
+    /// Puts given meshes on a rung each: their own if it belongs to the ladder and has a coarser one below it,
+    /// otherwise [`FIRST`]. The same settings if no mesh is given.
     pub fn on_rungs(&self, file: &Gearbox) -> Self {
         let one = |(mesh, rung): (&scene::gearbox::GearboxMesh, &Option<Rung>)| {
             let own = Rung::of(&mesh.scene).filter(|own| *own >= FIRST && !has_own_mesh(&mesh.scene));
@@ -89,7 +89,7 @@ impl Settings {
         Self { rungs: file.meshes.iter().zip(&self.rungs).map(one).collect(), ..self.clone() }
     }
 
-    /// All meshes that stand on a rung one rung coarser, and the least of what divides their numbers of elements.
+    /// All meshes one rung coarser, and the smallest ratio of their element counts.
     pub fn coarser(&self) -> (Self, f64) {
         let coarser = |rung: &Option<Rung>| rung.map(|own| own.coarser().unwrap_or(own));
         let own = Self { rungs: self.rungs.iter().map(coarser).collect(), ..self.clone() };
@@ -100,34 +100,35 @@ impl Settings {
         (own, least)
     }
 
-    /// Half the slices.
+    /// The same with half the slices.
     pub fn fewer_slices(&self) -> Self {
         Self { slices: self.slices.iter().map(|n| n / 2).collect(), ..self.clone() }
     }
 
-    /// So many positions.
+    /// The same with a given number of positions.
     pub fn with_positions(&self, positions: u32) -> Self {
         Self { positions, ..self.clone() }
     }
 
-    /// Half the shaft elements.
+    /// The same with half the shaft elements.
     pub fn fewer_elements(&self) -> Self {
         Self { shaft_elements: self.shaft_elements / 2, ..self.clone() }
     }
 
-    /// Finer rungs of the meshes that are the program's, up to the finest that laws of pairs are known of.
+    /// Finer rungs for the meshes that the program chooses, up to the finest with laws of pairs.
     pub fn finer_rungs(&self) -> impl Iterator<Item = Rung> + use<> {
         let own = self.rung();
         let known = |rung: &Rung| Calibration::committed().knows(CalibratedMesh::Rung(rung.elements_profile));
         Rung::ALL.into_iter().filter(known).filter(move |rung| own.is_some_and(|own| *rung > own))
     }
 
-    /// With the meshes that are the program's on a rung.
+    /// The same, with the meshes that the program chooses on a rung.
     pub fn on(&self, rung: Rung) -> Self {
         Self { rungs: self.rungs.iter().map(|own| own.map(|_| rung)).collect(), ..self.clone() }
     }
 
-    /// Twice the slices that are the program's; `None` where there are none, or there would be too many.
+    /// The same with twice the slices that the program chooses; `None` if there are none, or if there would be too
+    /// many.
     pub fn more_slices(&self, free: &Free) -> Option<Self> {
         let slices: Vec<u32> =
             self.slices.iter().zip(&free.slices).map(|(n, free)| if *free { 2 * n } else { *n }).collect();
@@ -136,13 +137,13 @@ impl Settings {
         fits.then(|| Self { slices, ..self.clone() })
     }
 
-    /// Twice the positions.
+    /// The same with twice the positions.
     pub fn more_positions(&self) -> Option<Self> {
         let positions = 2 * self.positions;
         (positions <= POSITIONS[1]).then(|| self.with_positions(positions))
     }
 
-    /// Twice the shaft elements.
+    /// The same with twice the shaft elements.
     pub fn more_elements(&self) -> Option<Self> {
         let shaft_elements = 2 * self.shaft_elements;
         (shaft_elements <= MOST_ELEMENTS).then(|| Self { shaft_elements, ..self.clone() })

@@ -1,4 +1,4 @@
-//! Runs of a scene from all states of a plane.
+//! Runs a scene from all initial states of a plane.
 
 use answer::Remark;
 use std::sync::Arc;
@@ -36,18 +36,18 @@ impl std::fmt::Debug for BasinAnalysis<'_> {
     }
 }
 
-/// The answer to a search for basins.
+/// Result of a search for basins of attraction.
 #[derive(Debug)]
 pub struct BasinResult {
-    /// What it was made of, and what must hold of it.
+    /// Facts about the run, with its certificate.
     pub facts: RunInfo,
-    /// Rate by rate, in ascending order, errors ascending in each.
+    /// Starts in ascending order of the rate and, for each rate, of the error.
     pub starts: Vec<BasinStart>,
-    /// Motions that they end in.
+    /// Motions in which they end.
     pub attractors: Vec<Attractor>,
-    /// The few numbers that it is made for.
+    /// Headline values.
     pub headline: BasinHeadline,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
@@ -57,25 +57,24 @@ impl<'a> BasinAnalysis<'a> {
         Self { scene, cache: &NoCache }
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// Runs all starts, telling nobody.
+    /// Runs all starts without progress reports.
     ///
     /// # Errors
-    /// As [`BasinAnalysis::solve_with`].
+    /// The errors of [`BasinAnalysis::solve_with`].
     pub fn solve(&self) -> Result<BasinResult, AnalysisError> {
         self.solve_with(&mut NoObserver)
     }
 
-    /// Runs all starts of the plane, in parallel, each until it repeats itself or for as long as the scene waits for
-    /// that.
+    /// Runs all starts of the plane in parallel, each until it is periodic or for as long as the scene permits.
     ///
     /// # Errors
-    /// Those of the model; that of the first start where none has a motion.
+    /// The errors of the model; the error of the first start if none leads to a motion.
     pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<BasinResult, AnalysisError> {
         let asked = with_slices(self.scene.clone());
         let words = asked.motion.as_ref().and_then(|m| m.basins);

@@ -1,4 +1,4 @@
-//! Motions that runs end in, told apart by what they look like.
+//! Final motions of the runs, distinguished by their characteristic values.
 
 use answer::TableError;
 use serde::Serialize;

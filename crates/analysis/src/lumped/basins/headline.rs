@@ -1,4 +1,4 @@
-//! What is read off basins.
+//! Headline values of basins.
 
 use scene::BasinScene;
 use serde::Serialize;

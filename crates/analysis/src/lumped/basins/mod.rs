@@ -1,4 +1,4 @@
-//! Basins of attraction: to which motion a pair settles from each state of a plane.
+//! Basins of attraction: the motion to which a pair settles from each state of a plane.
 //!
 //! | module | what it does |
 //! |---|---|

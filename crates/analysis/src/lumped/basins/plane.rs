@@ -21,10 +21,10 @@ pub(super) struct StatePlane {
 }
 
 impl StatePlane {
-    /// About the state in which a run of the model begins.
+    /// Plane about the state in which a run of the model begins.
     ///
     /// # Errors
-    /// [`AnalysisError`] where there is nothing to stand on.
+    /// [`AnalysisError`] if there is no equilibrium.
     pub fn new(model: &mut BoxedMechanism) -> Result<Self, AnalysisError> {
         let origin = model.start()?;
         let mut error_um = |state: &State| model.transmission_error_um(state).map_err(GearboxError::at(state.time));
@@ -42,7 +42,7 @@ impl StatePlane {
         Ok(Self { origin, direction })
     }
 
-    /// The state with a transmission error (um) and a rate of it (mm/s) beside those of rest.
+    /// The state that differs from equilibrium by a transmission error (um) and its rate (mm/s).
     pub fn state(&self, error_um: f64, rate_mm_s: f64) -> State {
         let Self { origin, direction } = self;
         State::new(origin.time, &origin.q + 1e-3 * error_um * direction, &origin.v + rate_mm_s * direction)

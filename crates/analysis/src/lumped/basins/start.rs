@@ -1,20 +1,20 @@
-//! A start of a run, and the motion that it leads to.
+//! Start of a run, and the motion to which it leads.
 
 use std::sync::Arc;
 
 use crate::AnalysisError;
 
-/// One start, and where it leads; units are in the names.
+/// One start and its motion; units are in the names.
 #[derive(Debug, Clone)]
 pub struct BasinStart {
-    /// Transmission error beside that of rest, um.
+    /// Transmission error relative to that of equilibrium, um.
     pub initial_dte_um: f64,
-    /// Rate of the transmission error beside that of rest, mm/s.
+    /// Rate of the transmission error relative to that of equilibrium, mm/s.
     pub initial_dte_rate_mm_s: f64,
-    /// Number of the motion that it ends in; `None` where none comes out.
+    /// Index of the final motion; `None` if there is none.
     pub attractor: Option<usize>,
-    /// Mesh cycles until it is there.
+    /// Number of mesh cycles until the final motion.
     pub warm_up_cycles: u64,
-    /// Why no motion comes out.
+    /// Reason why there is no final motion.
     pub failed: Option<Arc<AnalysisError>>,
 }

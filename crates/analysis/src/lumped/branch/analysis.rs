@@ -38,20 +38,20 @@ impl std::fmt::Debug for ContinuationAnalysis<'_> {
     }
 }
 
-/// The answer to a continuation.
+/// Result of a continuation.
 #[derive(Debug)]
 pub struct ContinuationResult {
-    /// What it was made of, and what must hold of it.
+    /// Facts about the run, with its certificate.
     pub facts: RunInfo,
     /// Motions in the order of the branch.
     pub points: Vec<BranchPoint>,
-    /// Where it turns, or another branch leaves it.
+    /// Points at which the branch turns or another branch leaves it.
     pub turns: Vec<BranchTurn>,
     /// Stable motions integrated in time.
     pub in_time: Vec<TimePoint>,
-    /// The few numbers that it is made for.
+    /// Headline values.
     pub headline: ContinuationHeadline,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
@@ -61,24 +61,24 @@ impl<'a> ContinuationAnalysis<'a> {
         Self { scene, cache: &NoCache }
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// Follows the branch, telling nobody.
+    /// Follows the branch without progress reports.
     ///
     /// # Errors
-    /// As [`ContinuationAnalysis::solve_with`].
+    /// The errors of [`ContinuationAnalysis::solve_with`].
     pub fn solve(&self) -> Result<ContinuationResult, AnalysisError> {
         self.solve_with(&mut NoObserver)
     }
 
-    /// Follows the branch, and integrates some of its stable motions in time.
+    /// Follows the branch, and integrates several of its stable motions in time.
     ///
     /// # Errors
-    /// [`AnalysisError::Periodic`] where no periodic motion is found at the beginning; those of the model.
+    /// [`AnalysisError::Periodic`] if no periodic motion is found at the beginning; the errors of the model.
     pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<ContinuationResult, AnalysisError> {
         let scene = with_slices(self.scene.clone());
         let other = || crate::error::unasked(&scene, "continuation");

@@ -1,4 +1,4 @@
-//! A scene's model over a parameter.
+//! The model of a scene as a function of a parameter.
 
 use gearbox::GearboxError;
 use integrate::{Forces, Mechanism, State};
@@ -29,10 +29,10 @@ pub(super) struct ModelFamily<'a> {
 }
 
 impl<'a> ModelFamily<'a> {
-    /// Family of the model that `inputs` make at the first value of the key.
+    /// Family of the model made from `inputs`, at the first value of the key.
     ///
     /// # Errors
-    /// [`AnalysisError`] of a model that cannot be made or does not stand.
+    /// [`AnalysisError`] if the model cannot be made or has no equilibrium.
     pub fn new(inputs: &'a LumpedInputs, key: ContinuationKey, cycles: u32) -> Result<Self, AnalysisError> {
         let mut model = inputs.build()?.model;
         let free = free_turn(&mut model).map_err(in_scene(&inputs.scene))?.map(|turn| turn.direction().clone());
@@ -60,7 +60,7 @@ impl<'a> ModelFamily<'a> {
         scene
     }
 
-    /// The model now, what it is made of, and its scene.
+    /// The current model, its inputs, and its scene.
     pub fn now(&mut self) -> (&mut BoxedMechanism, &LumpedInputs, &Scene) {
         (&mut self.model, self.inputs, &self.scene)
     }
@@ -70,18 +70,18 @@ impl<'a> ModelFamily<'a> {
         self.scene.operation.speed_rpm / 60.0 * f64::from(self.scene.driver_teeth())
     }
 
-    /// The place at which the gears rest under the load.
+    /// Equilibrium position of the gears under the load.
     ///
     /// # Errors
-    /// [`AnalysisError`] where there is none.
+    /// [`AnalysisError`] if there is none.
     pub fn rest(&mut self) -> Result<DVector<f64>, AnalysisError> {
         Ok(self.model.start().map_err(in_scene(&self.scene))?.q)
     }
 
-    /// Rows of a motion, in the order of time from the beginning of a period.
+    /// Rows of a motion in time order, from the beginning of a period.
     ///
     /// # Errors
-    /// Contact that cannot be solved.
+    /// An error if the contact cannot be solved.
     pub fn rows(&mut self, states: impl Iterator<Item = State>) -> Result<Vec<LumpedRow>, AnalysisError> {
         let Self { model, scene, .. } = self;
         model.rewind().map_err(in_scene(scene))?;

@@ -1,4 +1,4 @@
-//! What is read off a branch.
+//! Headline values of a branch.
 
 use serde::Serialize;
 

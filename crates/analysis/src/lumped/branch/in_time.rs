@@ -1,4 +1,4 @@
-//! Periodic motions integrated in time: where the branch says that a motion stays, it must stay.
+//! Periodic motions integrated in time: a motion that the branch classifies as stable must persist.
 
 use integrate::{Course, EvenRows, Row, State, StepControl};
 use nalgebra::DMatrix;

@@ -1,4 +1,4 @@
-//! What is read off a periodic motion.
+//! Results of a periodic motion.
 
 use periodic::{PeriodicFamily, PeriodicMotion};
 

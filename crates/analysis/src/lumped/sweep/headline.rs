@@ -1,4 +1,4 @@
-//! What is read off the points of a sweep.
+//! Headline values of a sweep.
 
 use scene::{Scene, SweepWay, plan::SectionEvery};
 use serde::Serialize;

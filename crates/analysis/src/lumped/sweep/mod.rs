@@ -28,7 +28,7 @@ use crate::{
 };
 use ways::{SweepValue, all_ways};
 
-/// A scene of a cheaper model at many values of one of its keys.
+/// A scene with a cheaper model at many values of one of its keys.
 #[derive(Clone, Copy)]
 pub struct KeySweep<'a> {
     scenes: &'a [(f64, Scene)],
@@ -42,46 +42,47 @@ impl std::fmt::Debug for KeySweep<'_> {
     }
 }
 
-/// The answer to a sweep.
+/// Result of a sweep over a key.
 #[derive(Debug)]
 pub struct BifurcationAnalysis {
-    /// The scene of the first value with a model: it stands for what they have in common.
+    /// The scene of the first value with a model, which stands for the common part of all scenes.
     pub scene: Scene,
-    /// What that was made of.
+    /// Facts about its model.
     pub facts: RunInfo,
-    /// Way by way, in ascending order of the value.
+    /// Points, direction by direction, in ascending order of the value.
     pub points: Vec<SweepPoint>,
-    /// What is read off them.
+    /// Headline values of the points.
     pub headline: SweepHeadline,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
 impl<'a> KeySweep<'a> {
-    /// Sweep of scenes with the values of a key, ascending; of each the motion to the steady state is taken, whatever
-    /// its `run`.
+    /// Sweep over scenes with ascending values of a key. For each the motion to the steady state is run, whatever its
+    /// `run`.
     pub fn new(scenes: &'a [(f64, Scene)], options: &'a SweepOptions) -> Self {
         Self { scenes, options, cache: &NoCache }
     }
 
-    /// With reduced gears from a cache, where the reduced model feeds the mesh.
+    /// Uses reduced gears from a cache, if the reduced model provides the mesh cycle.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// Runs all values, telling nobody.
+    /// Runs all values without progress reports.
     ///
     /// # Errors
-    /// As [`KeySweep::solve_with`].
+    /// The errors of [`KeySweep::solve_with`].
     pub fn solve(&self) -> Result<BifurcationAnalysis, AnalysisError> {
         self.solve_with(&mut NoObserver)
     }
 
-    /// Runs the model of a scene at each value, way by way, ways and the values of `apart` in parallel.
+    /// Runs the model of a scene at each value, direction by direction. Directions, and the values of `apart`, run in
+    /// parallel.
     ///
     /// # Errors
-    /// [`AnalysisError`] when no motion comes out at any value: one value without a motion has its reason in its point.
+    /// [`AnalysisError`] if no value gives a motion. A single value without a motion has the reason in its point.
     pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<BifurcationAnalysis, AnalysisError> {
         let options = self.options;
         let values = self.gather(observer);

@@ -1,4 +1,4 @@
-//! What a sweep is asked for.
+//! Options of a sweep.
 
 use std::{fmt, sync::Arc};
 
@@ -7,7 +7,7 @@ use scene::{MotionScene, Run, Scene, SweepScene, SweepWay, plan::SectionEvery};
 use super::super::LumpedRow;
 use crate::{AnalysisError, inputs::motion_of};
 
-/// A number of a row with its name.
+/// A named quantity of a row.
 #[derive(Clone)]
 pub struct LumpedQuantity {
     /// Name with unit.
@@ -22,12 +22,12 @@ impl fmt::Debug for LumpedQuantity {
 }
 
 impl LumpedQuantity {
-    /// Quantity of a name and what it stands for.
+    /// A quantity with its name and its value.
     pub fn new(name: impl Into<String>, value: impl Fn(&LumpedRow) -> f64 + Send + Sync + 'static) -> Self {
         Self { name: name.into(), value: Arc::new(value) }
     }
 
-    /// The dynamic transmission error, um, as the column `dte_um` has it.
+    /// The dynamic transmission error, um, as in the column `dte_um`.
     pub fn transmission_error() -> Self {
         Self::new("dte_um", |row| row.transmission_error_um)
     }
@@ -38,25 +38,25 @@ impl LumpedQuantity {
     }
 }
 
-/// What a sweep is asked for.
+/// Options of a sweep.
 #[derive(Debug, Clone)]
 pub struct SweepOptions {
-    /// The key that changes, with dots.
+    /// The key that varies, as a dotted path.
     pub key: String,
-    /// Which way its values are gone through.
+    /// Directions in which its values are taken.
     pub ways: Vec<SweepWay>,
-    /// How often a section has a point.
+    /// Interval of the points of a section.
     pub every: SectionEvery,
-    /// The quantity whose section is taken.
+    /// The quantity of the section.
     pub quantity: LumpedQuantity,
-    /// Points of a section, >= 1.
+    /// Number of points of a section, >= 1.
     pub points: u32,
-    /// Stretches of a mesh cycle over which the Lyapunov exponent is found; 0: it is not.
+    /// Number of mesh cycles over which the Lyapunov exponent is computed; 0: it is not computed.
     pub stretches: u32,
 }
 
 impl SweepOptions {
-    /// The sweep over speed that a scene with `run = "sweep"` asks for, with its scenes.
+    /// The sweep over speed of a scene with `run = "sweep"`, with its scenes.
     pub fn over_speed(scene: &Scene, speeds: &SweepScene, quantity: LumpedQuantity) -> (Vec<(f64, Scene)>, Self) {
         let at = |speed_rpm: f64| {
             let mut own = scene.clone();

@@ -1,4 +1,4 @@
-//! One value of a sweep.
+//! Results at one value of a sweep.
 
 use std::sync::Arc;
 
@@ -78,12 +78,12 @@ impl SweepPoint {
         }
     }
 
-    /// Exponent above zero beyond three standard errors, and a section that does not come back.
+    /// Whether the exponent is positive by more than three standard errors and the section is not periodic.
     pub fn is_chaotic(&self) -> bool {
         self.period.is_none() && self.lyapunov.is_some_and(|l| l.is_chaotic())
     }
 
-    /// Largest minus smallest of the column.
+    /// Largest minus smallest value of the column.
     pub fn peak_to_peak(&self) -> f64 {
         self.extent[1] - self.extent[0]
     }

@@ -1,4 +1,4 @@
-//! Value after value.
+//! Runs a sweep value by value.
 
 use std::{ops::ControlFlow, sync::Arc};
 

@@ -1,4 +1,4 @@
-//! Campbell diagram of a reduced pair: mesh orders through its frequencies.
+//! Campbell diagram of a reduced pair: its frequencies and mesh orders.
 
 use serde::Serialize;
 use study::{Campbell, StudyError, campbell};
@@ -13,7 +13,7 @@ pub(crate) const CAMPBELL_BEYOND: f64 = 1.05;
 /// Frequencies that a mesh order may meet over the speeds of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CampbellDiagram {
-    /// Lines and where they meet; its speeds are the driver's turns a second.
+    /// Frequencies and resonances; its speeds are those of the driver in revolutions per second.
     pub diagram: Campbell,
     /// Names of the orders.
     pub orders: Vec<String>,
@@ -37,13 +37,13 @@ described::described! {
 }
 
 impl CampbellDiagram {
-    /// Of frequencies (Hz) with their names, of a pair whose driver has so many teeth, up to its highest mesh
+    /// Diagram of named frequencies (Hz), for a pair whose driver has a given number of teeth, up to its highest mesh
     /// frequency, Hz.
     ///
-    /// Frequencies that are not finite are left out.
+    /// Frequencies that are not finite are omitted.
     ///
     /// # Errors
-    /// [`StudyError`] for a frequency that is no number.
+    /// [`StudyError`] for an invalid frequency.
     pub fn of(
         frequencies: impl IntoIterator<Item = (f64, String)>,
         teeth: u32,
@@ -60,7 +60,7 @@ impl CampbellDiagram {
         Ok(Self { diagram, orders: (1..=ORDERS).map(|k| format!("mesh order {k}")).collect(), names })
     }
 
-    /// Where orders meet frequencies, ascending in speed.
+    /// Intersections of orders and frequencies, ascending in speed.
     pub fn critical_speeds(&self) -> Vec<CriticalSpeed> {
         let mut all: Vec<_> = self.diagram.resonances.iter().collect();
         all.sort_by(|a, b| a.speed.total_cmp(&b.speed));

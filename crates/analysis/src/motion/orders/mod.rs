@@ -1,4 +1,4 @@
-//! Orders of a motion: spectra at constant speed, what is largest over speed, and the frequencies that orders meet.
+//! Orders of a motion: spectra at constant speed, largest values over speed, and the frequencies that orders meet.
 
 mod campbell;
 mod run_up;

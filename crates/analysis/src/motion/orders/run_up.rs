@@ -1,4 +1,4 @@
-//! A run-up or run-down, mesh cycle by mesh cycle: what is largest, and at which speed.
+//! A run-up or run-down, mesh cycle by mesh cycle: the largest values and their speeds.
 
 use answer::Remark;
 use dynamics::Speed;
@@ -14,7 +14,7 @@ const ORDERS: usize = 8;
 /// One mesh cycle of a ramp; units are in the names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunUpCycle {
-    /// Middle of the mesh cycle, s.
+    /// Time at the middle of the mesh cycle, s.
     pub time_s: f64,
     /// Speed of the driver, 1/min.
     pub driver_speed_rpm: f64,
@@ -30,14 +30,14 @@ pub struct RunUpCycle {
     pub max_normal_force_n: f64,
     /// Largest normal force of one tooth pair, N.
     pub max_pair_normal_force_n: Option<f64>,
-    /// Largest sum of normal forces over the mean quasi-static one.
+    /// Largest sum of normal forces divided by the mean quasi-static one.
     pub dynamic_factor: f64,
 }
 
-/// Amplitudes of the mesh orders over a stretch of a ramp.
+/// Amplitudes of the mesh orders over a section of a ramp.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrderCut {
-    /// Middle of the stretch, s.
+    /// Time at the middle of the section, s.
     pub time_s: f64,
     /// Mean speed of the driver, 1/min.
     pub driver_speed_rpm: f64,
@@ -47,12 +47,12 @@ pub struct OrderCut {
     pub amplitudes_um: Vec<f64>,
 }
 
-/// A ramp over speed.
+/// Results of a ramp over speed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RunUp {
-    /// Mesh cycle by mesh cycle.
+    /// Results per mesh cycle.
     pub cycles: Vec<RunUpCycle>,
-    /// Stretch by stretch of the waterfall.
+    /// Order cuts, per section of the waterfall.
     pub cuts: Vec<OrderCut>,
 }
 
@@ -72,7 +72,7 @@ described::described! {
 }
 
 impl PeakOverSpeed {
-    /// Speed and mesh frequency in words.
+    /// Text with speed and mesh frequency.
     pub fn place(&self) -> String {
         format!("at {:.1} rpm, {:.1} Hz", self.driver_speed_rpm, self.mesh_frequency_hz)
     }
@@ -98,11 +98,11 @@ described::described! {
 }
 
 impl RunUp {
-    /// Of the series of a ramp, `per_cycle` values to each mesh cycle; `law`: speed of the driver over time, `teeth`:
-    /// its own, `static_force`: what the dynamic factor refers to, N.
+    /// Results from the series of a ramp with `per_cycle` values in each mesh cycle. `law` is the speed of the driver
+    /// over time, `teeth` its number of teeth, `static_force` the reference of the dynamic factor, N.
     ///
     /// # Errors
-    /// [`StudyError`] for series that hold what is no number, and for series of different lengths.
+    /// [`StudyError`] for series with entries that are not finite, and for series of different lengths.
     pub fn of(
         series: &MotionSeries,
         per_cycle: usize,
@@ -155,7 +155,7 @@ impl RunUp {
         coarse_cut(peak, n + 1, self.cuts[peak.at].driver_speed_rpm, cure)
     }
 
-    /// The largest of everything; `None` without a whole cycle.
+    /// The largest values of all; `None` without a whole cycle.
     pub fn headline(&self) -> Option<RunUpHeadline> {
         let largest = |value: &dyn Fn(&RunUpCycle) -> f64| {
             self.cycles.iter().max_by(|a, b| value(a).total_cmp(&value(b))).map(|c| PeakOverSpeed {

@@ -1,24 +1,24 @@
-//! Series of a motion: what spectra and a run-up over speed are read off.
+//! Series of a motion, from which spectra and run-ups are computed.
 
 use answer::{RowStore, TableError};
 use study::StudyError;
 
 use crate::motion::MotionRow;
 
-/// Quantities of a motion over time, equally many values in each mesh cycle.
+/// Quantities of a motion over time, the same number of values in each mesh cycle.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MotionSeries {
-    /// Time, s; it and all that only a ramp is judged by may be empty.
+    /// Time, s. This and all other series that only a ramp needs may be empty.
     pub time_s: Vec<f64>,
-    /// Speed of the pinion, 1/min; may be empty where nothing is drawn over it.
+    /// Speed of the pinion, 1/min; may be empty if nothing is plotted over it.
     pub pinion_speed_rpm: Vec<f64>,
     /// Dynamic transmission error, um.
     pub dte_um: Vec<f64>,
     /// Sum of the normal forces of the driving flanks, N.
     pub normal_force_n: Vec<f64>,
-    /// The same of the coast flanks; empty for a model without any.
+    /// Sum of the normal forces of the coast flanks, N; empty for a model without coast flanks.
     pub coast_normal_force_n: Vec<f64>,
-    /// Normal force of the hardest pressed tooth pair, N; `None` for a model that does not tell pairs apart.
+    /// Largest normal force of any tooth pair, N; `None` for a model that does not distinguish pairs.
     pub pair_normal_force_n: Option<Vec<f64>>,
     /// Axial force of the mesh on the wheel, N.
     pub wheel_force_z_n: Vec<f64>,
@@ -27,10 +27,11 @@ pub struct MotionSeries {
 }
 
 impl MotionSeries {
-    /// Of the rows of a motion of reduced gears, for spectra; `over_speed`: and what a ramp is judged by.
+    /// Series from the rows of a motion of reduced gears, for spectra and, with `over_speed`, for the evaluation of a
+    /// ramp.
     ///
     /// # Errors
-    /// [`TableError`] where rows cannot be read back.
+    /// [`TableError`] if rows cannot be read back.
     pub fn of(rows: &RowStore<MotionRow>, over_speed: bool) -> Result<Self, TableError> {
         let mut all = Self::default();
         let mut pairs = Vec::new();
@@ -50,12 +51,12 @@ impl MotionSeries {
         Ok(all)
     }
 
-    /// Values of each series.
+    /// Number of values of each series.
     pub fn len(&self) -> usize {
         self.dte_um.len()
     }
 
-    /// Whether there is no value.
+    /// Whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.dte_um.is_empty()
     }

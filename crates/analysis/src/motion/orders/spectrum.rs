@@ -1,4 +1,4 @@
-//! Spectra of a motion at constant speed, and a waterfall of one whose speed changes.
+//! Spectra of a motion at constant speed, and the waterfall of one with changing speed.
 
 use integrate::Periodicity;
 use study::{MotionSpectrum, Stretches, StudyError, Waterfall, Window, waterfall};
@@ -16,22 +16,22 @@ pub(crate) fn window(found: Option<Periodicity>, tolerance: f64, cycles: u64) ->
 }
 
 impl MotionSeries {
-    /// Spectra of the whole record of so many mesh cycles: transmission error (um), sum of the normal forces of the driving flanks
-    /// (N), axial force on the wheel (N), tilting moments about y on pinion and wheel (N mm).
+    /// Spectra of the whole record of a number of mesh cycles: transmission error (um), sum of the normal forces of the
+    /// driving flanks (N), axial force on the wheel (N), tilting moments about y on pinion and wheel (N mm).
     ///
     /// # Errors
-    /// [`StudyError`] for a record that contains a value that is not a number.
+    /// [`StudyError`] for a record with a value that is not a finite number.
     pub fn spectrum(&self, of: (f64, f64), window: Window) -> Result<MotionSpectrum, StudyError> {
         let [pinion, wheel] = &self.moment_y_nmm;
         let all = [&self.dte_um, &self.normal_force_n, &self.wheel_force_z_n, pinion, wheel];
         MotionSpectrum::of(&all.map(|own| vec![own.as_slice()]), of, window)
     }
 
-    /// Order spectra of the transmission error over stretches of so many mesh cycles, `per_cycle` values in each, of a pair
-    /// whose pinion has so many teeth.
+    /// Order spectra of the transmission error over sections of `cycles` mesh cycles with `per_cycle` values in each,
+    /// for a pair whose pinion has a given number of teeth.
     ///
     /// # Errors
-    /// [`StudyError`] for a record that contains a value that is not a number, and for series of different lengths.
+    /// [`StudyError`] for a record with a value that is not a finite number, and for series of different lengths.
     pub fn waterfall(&self, per_cycle: usize, cycles: usize, pinion_teeth: u32) -> Result<Waterfall, StudyError> {
         let stretches = Stretches::of_cycles(self.len(), (per_cycle, cycles), pinion_teeth);
         waterfall(&[vec![&self.dte_um]], (&self.time_s, &self.pinion_speed_rpm), stretches)

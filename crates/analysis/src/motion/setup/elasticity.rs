@@ -1,4 +1,4 @@
-//! The gears' lowest elastic frequencies, the mesh harmonics beside them, and the normal modes that are kept.
+//! The gears' lowest elastic frequencies compared with the mesh harmonics, and the normal modes that are kept.
 
 use std::sync::Arc;
 
@@ -76,7 +76,7 @@ impl Elasticity {
     /// error.
     ///
     /// # Errors
-    /// [`AnalysisError::Reduction`] when the modes are not found, or the mesh cannot have them.
+    /// [`AnalysisError::Reduction`] if the modes cannot be computed, or if the mesh does not permit them.
     pub fn new(
         scene: &Scene,
         gears: &[ElasticGear; 2],
@@ -97,10 +97,10 @@ impl Elasticity {
         Self::of((scene, OF_PAIR), lowest_hz, quasi_static, pinion.zip(wheel).map(|(p, w)| [p, w]))
     }
 
-    /// Of gears of which all this is known; `remedy`: what has modes.
+    /// The same from known data of the gears; `remedy` names the model that has modes.
     ///
     /// # Errors
-    /// [`AnalysisError::Statistics`] for a transmission error that is no number.
+    /// [`AnalysisError::Statistics`] if the transmission error is not a finite number.
     pub fn of(
         (scene, remedy): (&Scene, &'static str),
         lowest_hz: [f64; 2],
@@ -120,8 +120,8 @@ impl Elasticity {
         self.kept.clone()
     }
 
-    /// Frequencies of the gears with their bores held, Hz, and what they are called: the kept modes, else the lowest of
-    /// either gear.
+    /// Frequencies of the gears with their bores held, Hz, and their names: the kept modes, otherwise the lowest
+    /// frequency of either gear.
     pub fn frequencies_hz(&self) -> Vec<(f64, String)> {
         let gears = ["pinion", "wheel"];
         match &self.kept {
@@ -135,7 +135,7 @@ impl Elasticity {
         }
     }
 
-    /// What the inertia of elastic deformation that is left out may change in a motion.
+    /// Possible change of a motion by the neglected inertia of elastic deformation.
     pub fn beside(&self, found: &Vibration) -> ElasticChange {
         let bounds = match &self.kept {
             None => self.lowest_hz,
@@ -144,7 +144,7 @@ impl Elasticity {
         ElasticChange::of(&self.amplitudes_um, found.mesh_hz, bounds, found.resonance)
     }
 
-    /// For the results of a run.
+    /// Values for the results of a run.
     pub fn headline(&self, found: &Vibration) -> ElasticHeadline {
         let change = self.beside(found);
         let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
@@ -173,14 +173,14 @@ impl Elasticity {
         rotation_share(turns, change.harmonic_hz().max(found.mesh_hz[1]), lowest)
     }
 
-    /// What a user should hear of the rotation.
+    /// Warning about the effect of rotation on the modes.
     pub fn rotation_warning(&self, found: &Vibration) -> Option<answer::Remark> {
         let share = self.rotation(found);
         (share > CHANGE_LIMIT).then(|| crate::remark::fast_rotation(100.0 * share, 100.0 * CHANGE_LIMIT))
     }
 
-    /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its
-    /// highest kept mode. The remedy has its price, at the pace of this run.
+    /// Warning about a run: elasticity that is not kept as a mode is quasi-static, in the whole gear or above its
+    /// highest kept mode. The remedy is given with its cost, at the pace of this run.
     pub fn warning(&self, found: &Vibration, demand: &StepDemand, pace: Pace) -> Option<answer::Remark> {
         let change = self.beside(found);
         if !change.matters() {

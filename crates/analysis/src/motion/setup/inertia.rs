@@ -1,4 +1,4 @@
-//! Which inertia vibrates on the teeth, and at which frequency.
+//! The inertia that vibrates on the teeth, and its frequency.
 
 use dynamics::Drive;
 use gearbox::motion::PairModel;
@@ -25,7 +25,7 @@ described::described! {
 }
 
 impl InertiaHeadline {
-    /// Of a pair.
+    /// Values of a pair.
     pub fn of(system: &PairModel) -> Self {
         let driven = system.options().statics.driven();
         let moving_gears = match system.options().drive {
@@ -42,7 +42,7 @@ impl InertiaHeadline {
         }
     }
 
-    /// One line: whose inertia it is, and what the other choice would be.
+    /// One line: whose inertia it is, and the alternative.
     pub fn describe(&self) -> String {
         match self.moving_gears.as_slice() {
             [one] => format!("the {one} alone, both free {:.1} Hz", self.mesh_resonance_both_free_hz),

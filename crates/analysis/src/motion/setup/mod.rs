@@ -1,5 +1,4 @@
-//! Everything before the first step: what the scene asks for in the solvers' units, gears, the quasi-static cycle, the
-//! mechanism.
+//! Preparations before the first step: the scene in the solvers' units, gears, the quasi-static cycle, the mechanism.
 
 mod elasticity;
 mod inertia;

@@ -1,4 +1,4 @@
-//! What a scene asks of motion, in the solvers' types and units.
+//! Motion settings of a scene, in the solvers' types and units.
 
 use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque};
 use gearbox::motion::SteadyBy;
@@ -12,7 +12,7 @@ use crate::{AnalysisError, elastic_gears::material, meshes::SceneMesh};
 /// Bodies, bearings, drive and load of the scene; contact as given.
 ///
 /// # Errors
-/// [`AnalysisError::Reduction`] when a body has no mass.
+/// [`AnalysisError::Reduction`] if a body has no mass.
 pub fn motion_options(
     scene: &Scene,
     pair: &GearPair,
@@ -44,7 +44,7 @@ pub(crate) fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
     if balances { Drive::Balanced(speed(scene)) } else { drive(scene, pair) }
 }
 
-/// What drives the driver: its speed, or a torque that balances the load in the mean unless the scene states another.
+/// Drive of the driver: its speed, or a torque that balances the mean load unless the scene gives another.
 pub fn drive(scene: &Scene, pair: &GearPair) -> Drive {
     let start = scene.operation.speed();
     if let Some(drive) = scene.drive.as_ref().filter(|d| d.by == DriveBy::Torque) {
@@ -58,7 +58,7 @@ pub fn drive(scene: &Scene, pair: &GearPair) -> Drive {
     Drive::Speed(speed(scene))
 }
 
-/// Speed of the driver that the scene asks for, rad/s.
+/// Speed of the driver according to the scene, rad/s.
 pub fn speed(scene: &Scene) -> Speed {
     match scene.motion.as_ref().and_then(|m| m.ramp) {
         None => Speed::Constant(scene.operation.speed()),
@@ -69,7 +69,7 @@ pub fn speed(scene: &Scene) -> Speed {
     }
 }
 
-/// Torque over time, N mm; `mean` where the scene states none.
+/// Torque over time, N mm; `mean` if the scene gives none.
 pub fn torque(stated: &TorqueScene, mean: f64) -> Torque {
     let mean = stated.mean().unwrap_or(mean);
     match (stated.table(), stated.harmonic()) {
@@ -100,7 +100,7 @@ pub(crate) fn body(
     Ok(stated_body(stated, whole))
 }
 
-/// What the scene states of a body, and `own` where it says nothing.
+/// Mass and inertia that the scene gives for a body, and those of `own` if it gives none.
 pub fn stated_body(stated: &BodyScene, own: RigidBody) -> RigidBody {
     let [transverse, polar] = stated.inertias();
     RigidBody {
@@ -111,7 +111,7 @@ pub fn stated_body(stated: &BodyScene, own: RigidBody) -> RigidBody {
     .with_polar(stated.added_inertia())
 }
 
-/// Damping of a direction is what the scene states, or the ratio's: c = 2 zeta sqrt(k m).
+/// Damping of a direction: as given by the scene, or from the damping ratio, c = 2 zeta sqrt(k m).
 pub fn bearing(stated: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
     let whole = |m: &[[f64; 5]; 5]| Matrix6::from_fn(|i, j| if i < 5 && j < 5 { m[i][j] } else { 0.0 });
     let diagonal = |values: [f64; 5]| Matrix6::from_fn(|i, j| if i == j && i < 5 { values[i] } else { 0.0 });
@@ -136,12 +136,12 @@ pub fn bearing(stated: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearin
     Bearing { stiffness, damping }
 }
 
-/// Method of integration.
+/// Integration method of a scene.
 pub fn scheme(motion: &MotionScene) -> Scheme {
     motion.scheme()
 }
 
-/// How steady states are found.
+/// Method for steady states.
 pub fn steady_by(by: SteadyWord) -> SteadyBy {
     match by {
         SteadyWord::Running => SteadyBy::Running,

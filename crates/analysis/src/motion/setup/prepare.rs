@@ -1,4 +1,4 @@
-//! Everything before the first step: gears, the quasi-static cycle that the motion starts from, the mechanism.
+//! Preparations before the first step: gears, the quasi-static cycle with which the motion starts, the mechanism.
 
 use answer::Remark;
 use std::{ops::ControlFlow, sync::Arc};
@@ -59,7 +59,7 @@ impl<'a> MotionInputs<'a> {
         Ok(Self { scene, motion, pair, meshes, cache })
     }
 
-    /// The width of the window to try next, where a pair beside it ought to carry load.
+    /// The next wider window to try, if a pair next to it should carry load.
     pub fn wider(&self, window: Option<usize>, error: &StaticError) -> Option<usize> {
         let options = contact_options(self.scene, &self.pair, window);
         wider_window(self.scene, &self.pair, &self.meshes, &options, error)

@@ -1,4 +1,4 @@
-//! The mesh cycle at rest that a motion starts from.
+//! The static mesh cycle with which a motion starts.
 
 use ltca::{StaticHistory, StaticPosition};
 

@@ -1,4 +1,4 @@
-//! Refusal of steps that are too long for an explicit method.
+//! Rejects steps that are too long for an explicit method.
 
 use integrate::StepLimit;
 use scene::Scene;
@@ -9,10 +9,10 @@ use crate::{
     unstable_steps::{Steps, UnstableSteps},
 };
 
-/// Refuses steps beyond the stability limit of the scene's method.
+/// Rejects steps beyond the stability limit of the scene's method.
 ///
 /// # Errors
-/// [`AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
+/// [`AnalysisError::Refused`] with the limit, the step, and a sufficient number of steps.
 pub fn refuse_unstable(scene: &Scene, limit: StepLimit, steps: Steps) -> Result<(), AnalysisError> {
     let Some(unstable) = UnstableSteps::of(steps, limit) else { return Ok(()) };
     let keys = ["motion.steps_per_resonance", "motion.steps_per_mesh_cycle", "motion.method"];

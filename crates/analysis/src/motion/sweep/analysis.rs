@@ -40,25 +40,25 @@ impl std::fmt::Debug for SweepAnalysis<'_> {
 /// The steady states of a pair over speed.
 #[derive(Debug, Clone)]
 pub struct SweepResult {
-    /// A row a way and speed, also of those without a motion.
+    /// A row per direction and speed, including those without a motion.
     pub rows: Vec<SweepRow>,
-    /// The few numbers that it is made for.
+    /// Headline values.
     pub headline: SweepHeadline,
-    /// Mesh orders through the pair's frequencies.
+    /// Campbell diagram: mesh orders and the pair's frequencies.
     pub campbell: CampbellDiagram,
-    /// The mesh cycle at rest that the motions start from.
+    /// The static mesh cycle with which the motions start.
     pub quasi_static: QuasiStatic,
     /// Facts about the model, with its certificate.
     pub facts: RunInfo,
-    /// What a user should hear.
+    /// Remarks for the user.
     pub remarks: Vec<Remark>,
 }
 
 impl SweepResult {
-    /// Whether it holds: the certificate, and at least one speed with a motion that holds.
+    /// Whether the result is valid: the certificate passes, and at least one speed has a valid motion.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] where no speed has a result.
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] if no speed has a result.
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
         crate::certificate::verdict(&self.facts.certificate, scene)?;
         rows::verdict(scene, &self.rows)
@@ -66,25 +66,24 @@ impl SweepResult {
 }
 
 impl<'a> SweepAnalysis<'a> {
-    /// Of a scene, its meshes read or made as it says.
+    /// Analysis of a scene, with its meshes read or generated as it says.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, meshes: None, cache: &NoCache }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
-    /// are.
+    /// Uses meshes of pinion and wheel from the caller instead of those of the scene. They are checked like mesh files.
     #[must_use]
     pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
     }
 
-    /// With reduced gears from a cache.
+    /// Uses reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
     }
 
-    /// Solves it, telling nobody.
+    /// Solves it without progress reports.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -92,7 +91,7 @@ impl<'a> SweepAnalysis<'a> {
         self.solve_into(&mut NoObserver, &mut NoMotionSink)
     }
 
-    /// Solves it; `sink` gets the quasi-static mesh cycle, rows in time have none of the speeds.
+    /// Solves it. `sink` receives the quasi-static mesh cycle; there are no rows in time.
     ///
     /// # Errors
     /// [`AnalysisError`].

@@ -1,4 +1,4 @@
-//! The few numbers that a sweep is made for.
+//! Headline values of a sweep.
 
 use scene::{MotionScene, Run, SweepScene, SweepWay};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! One row a speed and way of a sweep.
+//! One row per speed and direction of a sweep.
 
 use gearbox::motion::{SweepMiss, SweepOutcome, SweepPoint};
 use geometry::GearPair;
@@ -18,18 +18,18 @@ use crate::{
     refused::Refusal,
 };
 
-/// Mesh harmonics of a speed that are listed.
+/// Number of mesh harmonics listed per speed.
 pub const SWEEP_ORDERS: usize = 4;
 
-/// How a value of a sweep came out.
+/// Outcome of a value of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SweepStatus {
-    /// The motion repeats itself.
+    /// The motion is periodic.
     Solved,
-    /// It does not, in the cycles that it was given.
+    /// The motion is not periodic within the permitted cycles.
     NotPeriodic,
-    /// There is no motion at all.
+    /// There is no motion.
     Failed,
 }
 
@@ -39,7 +39,7 @@ impl SweepStatus {
         if periodicity.is_some_and(|residual| residual > tolerance) { Self::NotPeriodic } else { Self::Solved }
     }
 
-    /// The word of the column `status`.
+    /// Word for the column `status`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Solved => "solved",

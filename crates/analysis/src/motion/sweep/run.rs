@@ -1,4 +1,4 @@
-//! A sweep over speed: steady states, each by itself or each from the one before.
+//! A sweep over speed: steady states, each started separately or from the preceding one.
 
 use std::ops::ControlFlow;
 

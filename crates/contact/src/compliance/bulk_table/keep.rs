@@ -1,4 +1,4 @@
-//! Tables that are kept with their gear: a later run of the same flanks need not make them.
+//! Tables stored with their gear, so that a later run with the same flanks reads them.
 
 use std::sync::Arc;
 

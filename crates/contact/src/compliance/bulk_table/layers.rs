@@ -1,4 +1,4 @@
-//! The table of a wide gear from a shorter one of the same layers.
+//! Makes the table of a wide gear from a shorter one with the same layers.
 
 use nalgebra::Matrix3;
 use reduction::LayerStack;

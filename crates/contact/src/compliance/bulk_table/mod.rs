@@ -1,5 +1,5 @@
-//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are
-//! taken away. Theory (36).
+//! Bulk compliance of a body as a table over its flanks: the compliance of the mesh without its local indentations.
+//! Theory (36).
 
 mod keep;
 mod layers;
@@ -62,10 +62,10 @@ pub(crate) struct BulkCompliance<'a> {
 /// ```text
 /// D = W - sum over flanks of W_c,    S_ij = a_i' D a_j  ~  w_i' T w_j,    T_pq = a_p' D a_q
 /// ```
-/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its
-/// generator; w interpolates between them, cubic along the profile and quadratic along the face, in cells that are the
-/// faces of the mesh where these form a grid: what shape functions make of D is then met almost exactly. Normal forces
-/// need the first direction alone. [`BulkTable::error`] says how far from A D A' that is.
+/// T is D for unit forces at grid points p of the flanks, along the flank's normal, its profile and its generator. w
+/// interpolates between grid points, cubic along the profile and quadratic along the face. The cells are the faces of
+/// the mesh if these form a grid; then the interpolation reproduces the effect of the shape functions on D almost
+/// exactly. Normal forces need only the first direction. [`BulkTable::error`] is the difference from A D A'.
 #[derive(Debug, Clone)]
 pub struct BulkTable {
     lines: Vec<FlankGridLines>,
@@ -365,7 +365,7 @@ impl BulkTable {
         displacements.iter().map(of_one).collect()
     }
 
-    /// Error relative to the largest self-compliance, as measured between the grid points when the table was made.
+    /// Error relative to the largest self-compliance, measured between the grid points when the table was made.
     pub fn error(&self) -> f64 {
         self.error
     }

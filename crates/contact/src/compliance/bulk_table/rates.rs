@@ -1,5 +1,4 @@
-//! How openings of rows under held forces follow motions of the rows over the flanks.
-//! Theory (77a).
+//! Derivatives of the openings of rows under constant forces by motions of the rows over the flanks. Theory (77a).
 
 use pulp::{Simd, WithSimd};
 

@@ -1,4 +1,4 @@
-//! Compliance between rows, read from a table where they stand.
+//! Compliance between rows, read from a table at their positions.
 
 use std::ops::Range;
 
@@ -221,7 +221,7 @@ fn run<S: Simd>(simd: S, column: &[f64], first: usize) -> Four<S> {
     Four::new(simd, column[first..].first_chunk::<RUN>().unwrap_or(&[0.0; RUN]))
 }
 
-/// Memory for what is read from a table, used again.
+/// Reusable memory for values read from a table.
 #[derive(Debug, Default)]
 pub struct TableWork {
     /// Groups of openings, and of loads where these are others.

@@ -1,4 +1,4 @@
-//! Blocks of a table as their lower triangles.
+//! Stores blocks of a table as their lower triangles.
 
 use std::ops::Range;
 

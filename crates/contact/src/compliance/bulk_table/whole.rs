@@ -1,4 +1,4 @@
-//! Entries of a table between all pairs of points.
+//! Entries of a table for all pairs of points.
 
 use std::{
     ops::Range,

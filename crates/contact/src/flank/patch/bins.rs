@@ -1,4 +1,4 @@
-//! Bins of faces: those that may cover a spot.
+//! Bins for the search of faces that may contain a point.
 
 use super::face::{PatchFace, PatchNode, range};
 

@@ -1,4 +1,4 @@
-//! Where on the faces a place of the smooth surface is.
+//! Position of a point of the smooth surface on the faces.
 
 use mesh::FaceKind;
 

@@ -1,4 +1,4 @@
-//! One flank as contact sees it: smooth surface for gaps, finite-element faces for forces.
+//! One flank in contact: smooth surface for gaps, finite-element faces for forces.
 
 mod areas;
 mod bins;
@@ -13,12 +13,12 @@ use crate::{ContactError, Vec3, flank::Surface};
 use bins::Bins;
 use face::{PatchFace, PatchNode, range};
 
-/// Faces of one flank, and where their nodes sit on its smooth nominal surface.
+/// Faces of one flank, and the positions of their nodes on its smooth nominal surface.
 ///
-/// Patches of one flank with other micro-geometry share their faces (`with_surface`).
+/// Patches of one flank with different micro-geometry share their faces (`with_surface`).
 #[derive(Debug)]
 pub struct FlankPatch {
-    /// Tooth (or any other number) the flank belongs to.
+    /// Number of the tooth (or any other number) to which the flank belongs.
     pub tooth: i64,
     surface: Box<dyn Surface>,
     faces: Arc<[PatchFace]>,
@@ -51,13 +51,13 @@ fn profile_length(surface: &dyn Surface, [[low, z], [high, _]]: [[f64; 2]; 2]) -
 }
 
 impl FlankPatch {
-    /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` (mm) is how far a
-    /// node may lie from the nominal smooth surface: micro-geometry ([`Surface::depth`]) is in the gaps and not in the
-    /// mesh.
+    /// Makes a patch from faces of a mesh. `boundary(node)` gives a node's number among the gear's boundary nodes.
+    /// `tolerance` (mm) limits the distance of a node from the smooth nominal surface, because micro-geometry
+    /// ([`Surface::depth`]) is in the gaps and not in the mesh.
     ///
     /// # Errors
-    /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank;
-    /// [`ContactError::NotOnBoundary`] for a node that `boundary` does not know.
+    /// [`ContactError::OffSurface`] if mesh and surface do not describe the same flank; [`ContactError::NotOnBoundary`]
+    /// for a node without a boundary number.
     pub fn new(
         tooth: i64,
         surface: Box<dyn Surface>,
@@ -158,7 +158,7 @@ impl FlankPatch {
         i.nodes[..i.count].iter().copied().zip(i.weights).collect()
     }
 
-    /// Surface coordinates at a face point, interpolated from the nodes'.
+    /// Surface coordinates at a face point, interpolated from those of the nodes.
     pub fn coordinates(&self, at: FacePoint) -> [f64; 2] {
         let mut sum = [0.0; 2];
         self.interpolate(at, |node, w| {

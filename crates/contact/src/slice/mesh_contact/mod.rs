@@ -37,10 +37,10 @@ pub use work::ContactWork;
 /// Motion over the deepest overlap up to which the tangent changes by little.
 const SMALL_MOTION: f64 = 0.03;
 
-/// The slice contact of a window: search, compliance and solution. Memory is allocated once and used again.
+/// The slice contact of a window: search, compliance and solution. Memory is allocated once and reused.
 ///
 /// Poses are those of the frames of the window's matrices (`ltca::Equilibrium::poses`). The search starts from the last
-/// contact points and the solution from the last forces; neither changes the result by more than round-off.
+/// contact points and the solution from the last forces. Neither changes the result by more than round-off.
 #[derive(Debug)]
 pub struct MeshContact {
     set: ContactSet,
@@ -75,7 +75,7 @@ pub struct MeshContact {
 }
 
 impl MeshContact {
-    /// The contact of a window of slices on reduced gears.
+    /// The slice contact of a window on reduced gears.
     ///
     /// # Errors
     /// [`ContactError::NotSliced`] for points ([`crate::Method::Nodal`]) or gears with all their degrees of freedom.
@@ -118,12 +118,12 @@ impl MeshContact {
         &self.set
     }
 
-    /// Enters another window. Where `set`, that of any window of these gears, serves it, flanks and matrices are
-    /// renumbered; otherwise they are set up anew. Forces of the last solution are forgotten, because they belong to
+    /// Enters another window. If `set`, made for any window of these gears, serves it, flanks and matrices are
+    /// renumbered; otherwise they are set up again. Forces of the last solution are discarded, because they belong to
     /// other pairs. Kept modes are evaluated on the new flanks.
     ///
     /// # Errors
-    /// [`ContactError`] when the window cannot be set up.
+    /// [`ContactError`] if the window cannot be set up.
     pub fn enter_window(
         &mut self,
         pair: &GearPair,
@@ -142,7 +142,7 @@ impl MeshContact {
         self.enter_modes(gears)
     }
 
-    /// Forgets forces and contact points of the last solution.
+    /// Discards forces and contact points of the last solution.
     pub fn forget_places(&mut self) {
         self.enter(self.set.clone());
     }
@@ -160,7 +160,7 @@ impl MeshContact {
         self.set = set;
     }
 
-    /// Takes the normal modes of both gears out of the compliance. They then deform the gears by the amplitudes that
+    /// Removes the normal modes of both gears from the compliance. The gears are then deformed by the amplitudes that
     /// are set.
     ///
     /// # Errors
@@ -184,7 +184,7 @@ impl MeshContact {
         Ok(())
     }
 
-    /// Sets the amplitudes of the modes, of pinion and wheel in turn.
+    /// Sets the amplitudes of the modes, first those of the pinion, then those of the wheel.
     pub fn deform(&mut self, amplitudes: &[f64]) {
         if let Some(modal) = &mut self.modal {
             modal.deform(amplitudes);
@@ -196,7 +196,7 @@ impl MeshContact {
         self.modal.as_ref()
     }
 
-    /// Forgets the forces of the last solution.
+    /// Discards the forces of the last solution.
     pub fn forget(&mut self) {
         self.last_forces.fill(0.0);
         self.older_forces.fill(0.0);
@@ -205,7 +205,7 @@ impl MeshContact {
     /// Forces with the gears' frames at `poses`.
     ///
     /// # Errors
-    /// [`ContactError`] when the contact problem cannot be solved.
+    /// [`ContactError`] if the contact problem cannot be solved.
     pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
         self.prepare(poses, None);
         self.solve(Balance::Held, 0)?;
@@ -217,12 +217,12 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// Evaluates the contact as [`MeshContact::evaluate`] does, where the deepest overlap is about as it was: rows with
-    /// gaps beyond `reach` (mm) are not looked for, which saves most of the search. Where teeth overlap by more than
-    /// that, it looks for all.
+    /// Evaluates the contact as [`MeshContact::evaluate`], if the deepest overlap is expected to be similar to the last
+    /// one. Rows with gaps above `reach` (mm) are not searched, which saves most of the search. If teeth overlap by
+    /// more than `reach`, all rows are searched.
     ///
     /// # Errors
-    /// [`ContactError`] when the contact problem cannot be solved.
+    /// [`ContactError`] if the contact problem cannot be solved.
     pub fn evaluate_within(&mut self, poses: &[Pose; 2], reach: f64) -> Result<&MeshForce, ContactError> {
         self.prepare(poses, Some(reach));
         if self.modal.is_some() || self.deepest().is_nan() || self.deepest() > reach {
@@ -234,11 +234,11 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// Forces a small motion on from the last evaluation, on its rows and with its tangent; `None` where the motion is
-    /// not small, where the rows do not lead to a solution, or become active or inactive. `within` (mm): gap below which
-    /// the last evaluation has all rows ([`MeshContact::evaluate_within`]); the motion makes it smaller.
+    /// Forces after a small motion from the last evaluation, with its rows and its tangent. `None` if the motion is not
+    /// small, if the rows do not give a solution, or if rows enter or leave the active set. `within` (mm) is the gap
+    /// below which the last evaluation has all rows ([`MeshContact::evaluate_within`]); the motion reduces it.
     ///
-    /// Forces are as exact as those of [`MeshContact::evaluate`]; the tangent is that of the poses before.
+    /// Forces are as accurate as those of [`MeshContact::evaluate`]; the tangent is that of the earlier poses.
     pub fn evaluate_moved(&mut self, poses: &[Pose; 2], within: &mut f64) -> Option<&MeshForce> {
         let before = self.contact.at?;
         let way = |g: usize| {
@@ -259,7 +259,7 @@ impl MeshContact {
         Some(&self.force)
     }
 
-    /// Deepest overlap of the flanks in the last evaluation, mm; 0 where they are apart.
+    /// Deepest overlap of the flanks in the last evaluation, mm; 0 if they are apart.
     pub fn deepest_overlap(&self) -> f64 {
         self.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap))
     }
@@ -293,8 +293,8 @@ impl MeshContact {
         }
     }
 
-    /// How forces along the normals that are shares of the normal forces follow the twelve displacements, N/mm, N,
-    /// N mm: of row i the share `of(i)`. After an evaluation with its tangent.
+    /// Derivative, by the twelve displacements, of forces along the normals that are shares of the normal forces, N/mm,
+    /// N, N mm; row i has the share `of(i)`. To be called after an evaluation with its tangent.
     pub fn tangent_of_shares(&mut self, of: impl Fn(usize) -> f64) -> [[f64; 12]; 12] {
         let Self { contact: PoseContact { rows, at, .. }, solver, .. } = self;
         let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
@@ -309,7 +309,7 @@ impl MeshContact {
     /// ```text
     /// V = -g F - U*(F),   U* = F' S F / 2 + sum of int_0^F delta dF
     /// ```
-    /// This dual functional is stationary at the solution: its error is of second order in that of the forces.
+    /// This dual functional is stationary at the solution, so its error is of second order in the error of the forces.
     pub fn strain_energy(&self) -> f64 {
         let Self { contact: PoseContact { laws, .. }, gaps, solver, .. } = self;
         let (forces, openings) = (solver.forces(), solver.openings());
@@ -337,19 +337,20 @@ impl MeshContact {
         self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.contact.modal, row))
     }
 
-    /// Solves the contact of the rows. With a moment to balance, gear `body` turns.
+    /// Solves the contact of the rows. If a moment is balanced, gear `body` rotates.
     ///
     /// # Errors
-    /// [`ContactError`].
+    /// [`ContactError`] if the contact problem cannot be solved.
     pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
         self.solve_to(0.0, balance, body)
     }
 
-    /// Solves the contact of the rows to a violation of the conditions of `accuracy`, relative to the largest approach,
-    /// for which a solution at a pose nearby makes up. No accuracy below that of [`Self::solve`] is reached.
+    /// Solves the contact of the rows until the violation of the conditions, relative to the largest approach, is at
+    /// most `accuracy`; a solution at a nearby pose compensates for it. The accuracy is never better than that of
+    /// [`Self::solve`].
     ///
     /// # Errors
-    /// [`ContactError`].
+    /// [`ContactError`] if the contact problem cannot be solved.
     pub fn solve_to(&mut self, accuracy: f64, balance: Balance, body: usize) -> Result<(), ContactError> {
         self.take_levers(body);
         let Self { contact, gaps, levers, torque_levers, last_forces, older_forces, solver, .. } = self;
@@ -375,7 +376,7 @@ impl MeshContact {
         torque_levers.extend(contact.rows.iter().map(|r| r.torque_levers[body]));
     }
 
-    /// Makes the stiffness of the last solution under a moment exact where a factor of before led to it
+    /// Makes the stiffness of the last solution under a moment exact, if that solution was found with an earlier factor
     /// ([`MeshContact::solve_moved`]).
     pub fn refine_stiffness(&mut self, balance: Balance) {
         let Self { contact, gaps, levers, torque_levers, solver, friction, .. } = self;
@@ -394,7 +395,7 @@ impl MeshContact {
         &self.contact.rows
     }
 
-    /// Gives away rows and slices of the last solution; contact is to be searched anew afterwards.
+    /// Hands over rows and slices of the last solution; afterwards contact must be searched again.
     pub fn take_rows(&mut self) -> (Vec<ContactRow>, Vec<Slice>) {
         let PoseContact { at, bin, rows, slices, .. } = &mut self.contact;
         (*at, *bin) = (None, None);
@@ -406,14 +407,14 @@ impl MeshContact {
         &self.contact.slices
     }
 
-    /// The local approach of each row under forces (N): those of the last solution, or what becomes of them.
+    /// Local state of each row under forces (N): those of the last solution, or forces derived from them.
     pub fn states<'a>(&'a self, forces: &'a [f64]) -> impl Iterator<Item = SliceState> + 'a {
         let states = self.contact.laws.states(forces).into_iter();
         states.map(|(local, curved_energy)| SliceState { local, curved_energy })
     }
 
     /// Total length of the contact lines of the last evaluation on the driving side, with the gears' frames at `poses`,
-    /// mm: as that of a position at rest, theory (21b).
+    /// mm; computed as for static contact, theory (21b).
     pub fn line_length(&self, pair: &GearPair, poses: &[Pose; 2]) -> f64 {
         let face = pair.common_face();
         let (rows, slices) = (self.rows(), self.slices());

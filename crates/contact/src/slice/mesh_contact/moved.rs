@@ -1,16 +1,16 @@
-//! The contact of the last rows after a small motion: places, gaps and compliance anew, the factor of before.
+//! Contact of the last rows after a small motion: new positions, gaps and compliance, old factor.
 //!
-//! A pose of a search for equilibrium differs from the one before by a thousandth of the approach and less. The rows
-//! then stay, and the factor of before serves.
+//! A pose in a search for equilibrium differs from the preceding one by at most a thousandth of the approach. The rows
+//! then stay the same, and the earlier factor can be used.
 
 use crate::{FlankPair, Pose, complementarity::Balance};
 
 use super::{MeshContact, PoseContact, problem, search::turn};
 
 impl MeshContact {
-    /// Moves the rows of the last solution to where they are with the gears' frames at `poses`, and solves their
-    /// contact: whether that leads to a solution, with the same rows pressed. Where it does not,
-    /// [`MeshContact::prepare`] and [`MeshContact::solve`] do.
+    /// Moves the rows of the last solution to their positions with the gears' frames at `poses` and solves their
+    /// contact. Returns whether this gives a solution with the same rows in contact. If not, call
+    /// [`MeshContact::prepare`] and [`MeshContact::solve`].
     pub fn solve_moved(&mut self, poses: &[Pose; 2], balance: Balance, body: usize) -> bool {
         if self.modal.is_some() || !self.has_tables() || !self.move_rows(poses) {
             return false;

@@ -1,8 +1,8 @@
-//! Contact at poses that come in steps and small changes of these. Theory (46a).
+//! Contact at poses that move in steps and by small changes within a step. Theory (46a).
 //!
-//! The rows of contact are found and solved at the centre of the [`PoseBin`] of the first pose of a step. Gaps follow
-//! the motion from there to first order; forces follow by the tangent of the centre, iterated until they are exact. A
-//! periodic motion comes through the same bins again and finds their contact in the cache.
+//! The contact rows are found and solved at the centre of the [`PoseBin`] of the first pose of a step. From there gaps
+//! follow the motion to first order, and forces follow from the tangent at the centre, iterated until they are exact. A
+//! periodic motion returns to the same bins and finds their contact in the cache.
 
 use crate::{ContactError, MeshForce, Pose, complementarity::Balance};
 
@@ -11,11 +11,11 @@ use super::{MeshContact, PoseContact, pose_bin::PoseBin, pose_contact::Tangent, 
 /// Level of an evaluation: how much it computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EvaluationLevel {
-    /// The strain energy ([`MeshContact::strain_energy`]) and nothing else.
+    /// Only the strain energy ([`MeshContact::strain_energy`]).
     Energy,
-    /// Forces, too.
+    /// The forces as well.
     Forces,
-    /// Forces and their tangent, which is that at the centre of the bin.
+    /// The forces and their tangent, which is that at the centre of the bin.
     Tangent,
 }
 
@@ -24,15 +24,15 @@ pub enum EvaluationLevel {
 const ENERGY_ACCURACY: f64 = 1e-6;
 
 impl MeshContact {
-    /// Evaluates the contact as [`MeshContact::evaluate`] does, for poses that come in steps and small changes of
-    /// these. Rows found at poses up to a um away keep their contact points and their compliance; gaps follow the
-    /// motion to first order.
+    /// Evaluates the contact as [`MeshContact::evaluate`], for poses that move in steps and by small changes within a
+    /// step. Rows found at poses up to a um away keep their contact points and their compliance; gaps follow the motion
+    /// to first order.
     ///
-    /// Forces are the exact derivative of the strain energy, the tangent is that of the forces at the centre of the
+    /// Forces are the exact derivative of the strain energy; the tangent is that of the forces at the centre of the
     /// bin. The result depends only on the poses since the last `MeshContact::start_anew`.
     ///
     /// # Errors
-    /// [`ContactError`] when the contact problem cannot be solved.
+    /// [`ContactError`] if the contact problem cannot be solved.
     pub fn evaluate_near(&mut self, poses: &[Pose; 2], level: EvaluationLevel) -> Result<&MeshForce, ContactError> {
         let motion = self.select_rows(poses)?;
         self.contact.follow(&motion);
@@ -52,8 +52,8 @@ impl MeshContact {
     }
 
     /// Lower bound of the gap (mm) of the neighbouring pairs outside the window, with the gears' frames at `poses`.
-    /// `gap` gives their gap at given poses; the bound is the gap at the centre of the bin less what the motion from
-    /// there can close.
+    /// `gap` gives their gap at given poses. The bound is the gap at the centre of the bin minus the amount that the
+    /// motion from there can close.
     pub fn gap_of_neighbours(&mut self, poses: &[Pose; 2], gap: impl FnOnce(&[Pose; 2]) -> f64) -> f64 {
         let motion =
             self.contact.bin.as_ref().and_then(|_| self.contact.motion_to(poses, &self.sizes, self.modal.as_ref()));

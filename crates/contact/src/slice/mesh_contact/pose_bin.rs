@@ -1,8 +1,8 @@
-//! Bins of poses: a lattice over the poses of both gears. Contact is set up and solved at the centre of a bin, and that
+//! Bins of poses: a lattice over the poses of both gears. Contact is set up and solved at the centre of a bin; this
 //! solution serves every pose in the bin.
 //!
-//! The centre depends on the bin alone, not on the pose that came first. A cached solution is therefore the value of a
-//! pure function: with the cache or without it, results are the same to the last bit.
+//! The centre depends only on the bin, not on the pose that came first. A cached solution is therefore the value of a
+//! pure function: results have the same bits with the cache and without it.
 
 use geometry::GearPair;
 use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
@@ -25,7 +25,7 @@ pub(super) struct BinSizes {
 }
 
 impl BinSizes {
-    /// Bin sizes of a pair: lengths are parts of its normal module.
+    /// Bin sizes of a pair; lengths are fractions of its normal module.
     pub fn of(pair: &GearPair) -> Self {
         let module = pair.pinion.data().normal_module;
         let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
@@ -45,7 +45,7 @@ pub(super) struct PoseBin {
 }
 
 impl PoseBin {
-    /// The bin of some poses.
+    /// The bin of the given poses.
     pub fn of(poses: &[Pose; 2], sizes: &BinSizes, modal: Option<&ModalFlanks>) -> Self {
         let BinSizes { radius, linear_range, edge } = *sizes;
         let round = |x: f64| x.round() as i64;
@@ -74,7 +74,7 @@ impl PoseBin {
         self.amplitudes.iter().zip(modal.sizes()).map(|(&n, size)| n as f64 * sizes.edge / size).collect()
     }
 
-    /// Largest gap opening by modes, mm, that the bin allows for.
+    /// Largest gap opening by modes that the bin permits, mm.
     pub fn reach(&self, sizes: &BinSizes) -> f64 {
         sizes.linear_range * f64::from(self.reach).exp2()
     }

@@ -1,4 +1,4 @@
-//! Contact in the pose bins that were visited before.
+//! Contact in the pose bins visited before.
 
 use super::{pose_bin::PoseBin, pose_contact::PoseContact};
 
@@ -39,7 +39,7 @@ impl PoseCache {
         }
     }
 
-    /// Makes `bin` the current one; false where the cache does not hold it.
+    /// Makes `bin` the current one; returns false if the cache does not contain it.
     pub fn recall(&mut self, bin: &PoseBin, now: &mut PoseContact) -> bool {
         let Some(point) = self.bins.iter().position(|contact| contact.bin.as_ref() == Some(bin)) else { return false };
         std::mem::swap(&mut self.bins[point], now);

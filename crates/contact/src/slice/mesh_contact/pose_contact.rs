@@ -54,8 +54,8 @@ impl PoseContact {
         }
     }
 
-    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`. `None` where the motion is beyond
-    /// the linear range, or where modes open gaps by more than was allowed for.
+    /// Displacements (mm) and small rotations (rad) of both gears from here to `poses`. `None` if the motion exceeds
+    /// the linear range, or if modes open gaps by more than the bin permits.
     pub fn motion_to(&self, poses: &[Pose; 2], sizes: &BinSizes, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
         let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
         let mut motion = [0.0; 12];
@@ -74,8 +74,8 @@ impl PoseContact {
         Some(motion)
     }
 
-    /// Takes gaps and, where that is `wanted`, their derivatives by the motion of both gears from the rows. Called once
-    /// the rows are complete.
+    /// Takes gaps and, if `wanted`, their derivatives by the motion of both gears from the rows. Called once the rows
+    /// are complete.
     pub fn update_openings(&mut self, wanted: bool) {
         let Self { at, rows, gaps, openings, tangent, neighbour_gap, .. } = self;
         let centres = at.map_or([Vec3::zeros(); 2], |at| at.map(|p| p.translation.vector));
@@ -87,7 +87,7 @@ impl PoseContact {
         (*tangent, *neighbour_gap) = (None, None);
     }
 
-    /// Size, bytes.
+    /// Memory used, bytes.
     pub fn bytes(&self) -> usize {
         let of_row = size_of::<ContactRow>() + size_of::<Slice>() + size_of::<[f64; 12]>();
         self.rows.len() * of_row + self.laws.bytes() + self.compliance.len() * size_of::<f64>() + self.saved.bytes()

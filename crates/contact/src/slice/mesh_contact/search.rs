@@ -1,13 +1,12 @@
-//! Search for the points of least gap, and selection of those that become rows of the contact problem.
+//! Search for the points of smallest gap, and selection of those that become rows of the contact problem.
 
 use crate::{FlankPair, Pose, slice::SliceHint};
 
 use super::{MeshContact, PoseContact, pose_bin::PoseBin};
 
 impl MeshContact {
-    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Teeth are
-    /// undeformed but for the kept modes. With modes it overwrites the
-    /// last evaluation.
+    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative if they are apart. Teeth are
+    /// undeformed except for the kept modes. With modes it overwrites the last evaluation.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
         if self.modal.is_some() {
             self.stash();
@@ -73,8 +72,8 @@ impl MeshContact {
         }
     }
 
-    /// Rows and their compliance with the gears' frames at `poses`. Rows have gaps of at most `reach` (mm); without it,
-    /// of at most the deepest overlap.
+    /// Rows and their compliance with the gears' frames at `poses`. Rows have gaps of at most `reach` (mm); if it is
+    /// `None`, of at most the deepest overlap.
     ///
     /// Without a free rotation no row is approached by more than the deepest overlap. Loads on other teeth close a gap
     /// by some per cent of that overlap, so rows with larger gaps stay open.

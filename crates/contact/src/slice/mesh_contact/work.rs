@@ -1,4 +1,4 @@
-//! How much an evaluation has to do.
+//! Computational cost of an evaluation.
 
 use crate::{
     SlicePoint, TablePoint,
@@ -13,8 +13,8 @@ use super::MeshContact;
 pub struct ContactWork {
     /// Data that it reads or writes at least once, bytes.
     pub bytes: f64,
-    /// Floating-point operations of its linear algebra. Search and local compliance, a few hundred operations a slice,
-    /// are left out.
+    /// Floating-point operations of its linear algebra. Search and local compliance, a few hundred operations per
+    /// slice, are not counted.
     pub flops: f64,
 }
 

@@ -1,13 +1,13 @@
-//! The factor of a large body, of which a part at a time is held. Theory (13c).
+//! Factor of a large body with only part of it in memory at a time. Theory (13c).
 //!
-//! The first cuts of the dissection leave pieces P that share no entry of the matrix. With the separators and the
-//! boundary together as the top T,
+//! The first cuts of the nested dissection leave pieces P that share no entry of the matrix. The separators and the
+//! boundary together form the top T:
 //!
 //! ```text
 //! S = K_TT - sum over P of K_TP K_PP^-1 K_PT = L_TT L_TT'
 //! ```
-//! S, a small part of the factor, is kept. The factor of a piece is made to find its share of S, goes, and is made again
-//! where a solution in this piece is asked for.
+//! S is a small part of the factor and is kept. The factor of a piece is made to find its contribution to S and is then
+//! freed. It is made again when a solution in this piece is needed.
 
 mod pieces;
 mod solves;
@@ -30,9 +30,10 @@ const HELD: usize = 2;
 /// Rows of a piece at least, in the mean.
 const LEAST_ROWS: usize = 64;
 
-/// Cholesky factor of a symmetric positive definite matrix with chosen degrees of freedom last, in pieces.
+/// Cholesky factor, in pieces, of a symmetric positive definite matrix in which chosen degrees of freedom come last.
 ///
-/// All results are the same bits for any number of threads and any history. Columns are in the order of `boundary`.
+/// All results have the same bits for any number of threads and any order of calls. Columns are in the order of
+/// `boundary`.
 pub struct PartedFactor {
     pieces: Pieces,
     factors: Factors,
@@ -60,25 +61,25 @@ struct Held {
 }
 
 impl PartedFactor {
-    /// Factors `stiffness` with `boundary` (matrix rows, in the order wanted) last, which may be empty. Between its steps
-    /// `wanted` says whether anybody still waits.
+    /// Factors `stiffness` with the matrix rows `boundary` last, in the given order. `boundary` may be empty. Between
+    /// its steps `wanted` is asked whether to continue.
     ///
     /// # Errors
-    /// As [`BoundaryLastFactor::new_while`].
+    /// The errors of [`BoundaryLastFactor::new_while`].
     pub fn new(stiffness: SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
         let times = halvings(stiffness.n());
         Self::halved(stiffness, boundary, times, wanted)
     }
 
-    /// About how many of n rows have their part of the factor held at a time.
+    /// Approximate number of rows, of n, whose part of the factor is in memory at a time.
     pub fn rows_held(n: usize) -> usize {
         n.div_ceil(1 << halvings(n)).saturating_mul(HELD).min(n)
     }
 
-    /// As [`PartedFactor::new`], with pieces that are halves of halves, so many times if the matrix is large enough.
+    /// As [`PartedFactor::new`], with the matrix halved `times` times in succession if it is large enough.
     ///
     /// # Errors
-    /// As [`PartedFactor::new`].
+    /// The errors of [`PartedFactor::new`].
     pub fn halved(
         stiffness: SymmetricMatrix,
         boundary: &[usize],
@@ -120,7 +121,7 @@ impl PartedFactor {
         self.pieces.places().len()
     }
 
-    /// The boundary's matrix rows, in the order of the condensed matrices.
+    /// Matrix rows of the boundary, in the order of the condensed matrices.
     pub fn boundary(&self) -> &[usize] {
         &self.boundary
     }

@@ -1,4 +1,4 @@
-//! Which rows are where, and what a piece of the matrix is.
+//! Assigns rows to pieces; extracts the pieces of the matrix.
 
 use faer::{
     Mat,

@@ -1,4 +1,4 @@
-//! Fields, forces and solutions of a factor in pieces.
+//! Displacements, forces and solutions from a factor in pieces.
 
 use std::collections::BTreeMap;
 
@@ -35,10 +35,10 @@ impl PartedFactor {
         self.top.compliance()
     }
 
-    /// As [`BoundaryLastFactor::expand`](super::BoundaryLastFactor::expand).
+    /// The same as [`BoundaryLastFactor::expand`](super::BoundaryLastFactor::expand).
     ///
     /// # Errors
-    /// As there, and what [`PartedFactor::new`] has for the factor of a piece.
+    /// The same errors, and those of [`PartedFactor::new`] for the factor of a piece.
     pub fn expand(&self, boundary: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         let top = self.top.expand(boundary)?;
         let mut x = Mat::zeros(self.n(), boundary.ncols());
@@ -46,10 +46,10 @@ impl PartedFactor {
         Ok(x)
     }
 
-    /// As [`BoundaryLastFactor::condense`](super::BoundaryLastFactor::condense).
+    /// The same as [`BoundaryLastFactor::condense`](super::BoundaryLastFactor::condense).
     ///
     /// # Errors
-    /// As [`PartedFactor::expand`].
+    /// The errors of [`PartedFactor::expand`].
     pub fn condense(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         check_rows(self.n(), force.nrows())?;
         let mut x = force.to_owned();
@@ -57,10 +57,10 @@ impl PartedFactor {
         self.top.condense(top.as_ref())
     }
 
-    /// As [`BoundaryLastFactor::solve`](super::BoundaryLastFactor::solve).
+    /// The same as [`BoundaryLastFactor::solve`](super::BoundaryLastFactor::solve).
     ///
     /// # Errors
-    /// As [`PartedFactor::expand`].
+    /// The errors of [`PartedFactor::expand`].
     pub fn solve(&self, mut rhs: MatMut<'_, f64>) -> Result<(), FemError> {
         check_rows(self.n(), rhs.nrows())?;
         let mut top = self.eliminate(rhs.rb_mut())?;
@@ -68,10 +68,10 @@ impl PartedFactor {
         self.substitute_back(rhs, &top, None)
     }
 
-    /// As [`BoundaryLastFactor::solve_rows`](super::BoundaryLastFactor::solve_rows).
+    /// The same as [`BoundaryLastFactor::solve_rows`](super::BoundaryLastFactor::solve_rows).
     ///
     /// # Errors
-    /// As [`PartedFactor::expand`], and [`FemError::BadDof`].
+    /// The errors of [`PartedFactor::expand`], and [`FemError::BadDof`].
     pub fn solve_rows(&self, rhs: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         check_rows(self.n(), rhs.nrows())?;
         let asked = self.asked(wanted)?;
@@ -82,11 +82,11 @@ impl PartedFactor {
         Ok(Mat::from_fn(wanted.len(), rhs.ncols(), |i, j| x[(wanted[i], j)]))
     }
 
-    /// As [`BoundaryLastFactor::expand_rows`](super::BoundaryLastFactor::expand_rows). Pieces without a wanted row are
-    /// not needed.
+    /// The same as [`BoundaryLastFactor::expand_rows`](super::BoundaryLastFactor::expand_rows). Pieces without a wanted
+    /// row are skipped.
     ///
     /// # Errors
-    /// As [`PartedFactor::expand`], and [`FemError::BadDof`].
+    /// The errors of [`PartedFactor::expand`], and [`FemError::BadDof`].
     pub fn expand_rows(&self, boundary: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         let asked = self.asked(wanted)?;
         let needed = self.needed(&asked);
@@ -94,11 +94,11 @@ impl PartedFactor {
         self.rows_below(wanted.len(), &asked, (&needed, &top), BTreeMap::new())
     }
 
-    /// As [`BoundaryLastFactor::solve_few`](super::BoundaryLastFactor::solve_few). Pieces without a force and a wanted
-    /// row are not needed.
+    /// The same as [`BoundaryLastFactor::solve_few`](super::BoundaryLastFactor::solve_few). Pieces without a force and
+    /// without a wanted row are skipped.
     ///
     /// # Errors
-    /// As [`PartedFactor::expand`], and [`FemError::BadDof`].
+    /// The errors of [`PartedFactor::expand`], and [`FemError::BadDof`].
     pub fn solve_few(&self, forces: &[Vec<(usize, f64)>], wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         let asked = self.asked(wanted)?;
         let (mut on_top, mut on_pieces): (Forces, BTreeMap<usize, Forces>) =

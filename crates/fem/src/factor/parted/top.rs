@@ -1,4 +1,4 @@
-//! What is between the pieces.
+//! The top: the separators between the pieces, and the boundary.
 
 use faer::{
     Mat,

@@ -1,4 +1,4 @@
-//! Writes a mesh in any flavour of Gmsh's format.
+//! Writes a mesh in any version and encoding of Gmsh's format.
 
 mod out;
 mod v2;
@@ -9,7 +9,7 @@ use std::path::Path;
 use crate::{Mesh, MeshError};
 use out::Out;
 
-/// Flavours of `.msh`.
+/// Versions and encodings of `.msh`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MshFormat {
     /// Version 4.1, text.
@@ -17,14 +17,14 @@ pub enum MshFormat {
     /// Version 4.1, binary: small, fast and exact.
     #[default]
     Binary41,
-    /// Version 2.2, text: what the most other programs read.
+    /// Version 2.2, text: the one that most other programs read.
     Ascii22,
     /// Version 2.2, binary.
     Binary22,
 }
 
 impl MshFormat {
-    /// All flavours.
+    /// All versions and encodings.
     pub const ALL: [Self; 4] = [Self::Ascii41, Self::Binary41, Self::Ascii22, Self::Binary22];
 
     fn is_binary(self) -> bool {
@@ -33,14 +33,15 @@ impl MshFormat {
 }
 
 impl Mesh {
-    /// Writes the mesh into a file that Gmsh and other programs open; where that fails, one that is there stays as it is.
+    /// Writes the mesh into a file that Gmsh and other programs can open. If this fails, an existing file stays
+    /// unchanged.
     ///
-    /// Coordinates are exact in every flavour. All volume elements go into every physical volume
-    /// of [`Mesh::volumes`]; in format 2.2 that writes them once a volume, as Gmsh does.
+    /// Coordinates are exact in every encoding. All volume elements go into every physical volume of [`Mesh::volumes`];
+    /// format 2.2 therefore has them once per volume, as Gmsh writes them.
     ///
     /// # Errors
-    /// [`MeshError::Write`] when the file cannot be written, [`MeshError::Inconsistent`] when the
-    /// lists of the mesh do not fit together, [`MeshError::TagTooLarge`] when a tag does not fit into format 2.2.
+    /// [`MeshError::Write`] if the file cannot be written, [`MeshError::Inconsistent`] if the lists of the mesh
+    /// contradict each other, [`MeshError::TagTooLarge`] if a tag does not fit into format 2.2.
     pub fn write(&self, path: impl AsRef<Path>, format: MshFormat) -> Result<(), MeshError> {
         let path = path.as_ref();
         let bytes = self.to_msh(format)?;
@@ -50,7 +51,7 @@ impl Mesh {
     /// The content of a mesh file, see [`Mesh::write`].
     ///
     /// # Errors
-    /// As [`Mesh::write`], but for the file.
+    /// Those of [`Mesh::write`], except for file errors.
     pub fn to_msh(&self, format: MshFormat) -> Result<Vec<u8>, MeshError> {
         self.check_lists()?;
         let mut out = Out { bytes: Vec::new(), binary: format.is_binary() };

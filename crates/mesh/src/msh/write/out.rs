@@ -1,4 +1,4 @@
-//! Numbers of a mesh file, as text or as bytes.
+//! Writes the numbers of a mesh file, as text or as bytes.
 
 use std::io::Write as _;
 

@@ -1,4 +1,4 @@
-//! Format 2.2.
+//! Writer of format 2.2.
 
 use super::{Out, extremes};
 use crate::{Mesh, MeshError};

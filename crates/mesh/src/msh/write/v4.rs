@@ -1,4 +1,4 @@
-//! Format 4.1.
+//! Writer of format 4.1.
 
 use super::{Out, extremes};
 use crate::{FaceKind, Mesh};

@@ -1,4 +1,4 @@
-//! The housing of a gearbox file: a matrix in it, or one of another program's.
+//! The housing of a gearbox file: a matrix in the file, or one from another program.
 //!
 //! | module | what it reads |
 //! |---|---|

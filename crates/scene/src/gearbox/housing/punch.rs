@@ -1,4 +1,4 @@
-//! `DMIG` entries of Nastran's bulk data, as its punch files have them.
+//! `DMIG` entries of Nastran's bulk data, as in its punch files.
 
 use super::{Entries, Wrong, number};
 
