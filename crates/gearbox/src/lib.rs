@@ -48,6 +48,7 @@ mod static_result;
 mod structure;
 mod supports;
 mod train;
+mod turned_seat;
 mod unconstrained;
 mod vibration;
 mod whirl;
