@@ -48,12 +48,12 @@ impl Sum {
 }
 
 /// Sums up what meshes, torques, bearings and the input do to every shaft: places where the parts are, undeformed, as
-/// linear shafts have it.
+/// linear shafts have it. `turned`: forces of bearings whose seats turn, on their shafts and on the nodes of their seats.
 pub(crate) fn balances(
     gearbox: &StaticGearbox,
     reactions: &DVector<f64>,
     forces: &[Vector12],
-    bearings: &[BearingState],
+    (bearings, turned): (&[BearingState], &[Option<Vector12>]),
 ) -> Balance {
     let structure = gearbox.assembly.structure();
     let input = &structure.discs[gearbox.operation.input];
@@ -88,7 +88,7 @@ pub(crate) fn balances(
             sums.push(sum);
             continue;
         }
-        for (i, (bearing, state)) in structure.bearings.iter().zip(bearings).enumerate() {
+        for (i, ((bearing, state), turned)) in structure.bearings.iter().zip(bearings).zip(turned).enumerate() {
             let (force, moment) = (Vector3::from(state.force), Vector3::from(state.moment));
             if bearing.shaft == shaft {
                 sum.add(height(gearbox, shaft, gearbox.assembly.bearing(i)), force, moment);
@@ -97,6 +97,13 @@ pub(crate) fn balances(
             if let (Some(outer), Some([x, y, z])) = (bearing.outer, structure.seat(bearing))
                 && outer == shaft
             {
+                if let (Some(ends), Some(node)) =
+                    (turned, gearbox.assembly.bearing_ends(i).nth(1).map(|(node, _)| node))
+                {
+                    let [force, moment] = [6, 9].map(|at| ends.fixed_rows::<3>(at).into());
+                    sum.add(height(gearbox, shaft, node), force, moment);
+                    continue;
+                }
                 sum.add(z, -force, -moment - Vector3::new(x, y, 0.0).cross(&force));
             }
         }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector5, Vector6};
 
 use crate::{
-    Assembly, Structure, Supports,
+    Assembly, Structure, Supports, Vector12,
     rolling_bearing::{RollingBearing, RollingReply, RollingState},
     seats::Seats,
+    turned_seat::TurnedSeat,
 };
 
 /// A rolling bearing between a seat of its shaft and an open seat of the housing, a seat of another shaft, or the ground.
@@ -21,6 +22,8 @@ pub(crate) struct CompliantBearing {
     housing: Option<usize>,
     /// Offset of its seat.
     offset: Vector6<f64>,
+    /// Its seat, where that turns with a carrier.
+    turned: Option<TurnedSeat>,
 }
 
 impl CompliantBearing {
@@ -33,7 +36,8 @@ impl CompliantBearing {
             let housing = assembly.open_seat(bearing).and_then(|at| seats.of_open(assembly, at));
             let of_nodes = assembly.bearing_ends(bearing).map(|(node, own)| Some((seats.of_node(node)?, *own)));
             let ends = of_nodes.chain(housing.map(|at| Some((at, -Matrix6::identity())))).collect::<Option<_>>()?;
-            Some(Self { bearing, law, ends, housing, offset: b.offset6() })
+            let turned = TurnedSeat::of(assembly, seats, bearing);
+            Some(Self { bearing, law, ends, housing, offset: b.offset6(), turned })
         };
         moving.filter_map(one).collect()
     }
@@ -47,7 +51,7 @@ impl CompliantBearing {
             let housing = open.map(|at| 6 * (structure.bearings.len() + at));
             let own = [(6 * bearing, Matrix6::identity())].into_iter();
             let ends = own.chain(housing.map(|at| (at, -Matrix6::identity()))).collect();
-            Some(Self { bearing, law, ends, housing, offset: b.offset6() })
+            Some(Self { bearing, law, ends, housing, offset: b.offset6(), turned: None })
         };
         own.filter_map(one).collect()
     }
@@ -72,14 +76,26 @@ impl CompliantBearing {
 
     /// Adds its forces and its -dV2/dy2 to those of the seats.
     pub fn add(&self, y: &DVector<f64>, forces: &mut DVector<f64>, slopes: &mut DMatrix<f64>) -> RollingReply {
-        let u = self.relative(y);
-        let reply = self.law.evaluate(&Vector5::from_fn(|k, _| u[k]));
+        let evaluate = |u: Vector6<f64>| self.law.evaluate(&Vector5::from_fn(|k, _| u[k]));
+        if let Some(seat) = &self.turned {
+            let seen = seat.seen(y);
+            let reply = evaluate(seat.moved(&seen) - self.offset);
+            seat.add(&seen, (&reply.force6(), &reply.stiffness6()), forces, slopes);
+            return reply;
+        }
+        let reply = evaluate(self.relative(y));
         for (at, own) in &self.ends {
             let mut rows = forces.fixed_rows_mut::<6>(*at);
             rows += own.transpose() * reply.force6();
         }
         self.add_stiffness(&(-reply.stiffness6()), slopes);
         reply
+    }
+
+    /// First coordinates of the shaft's node and of the seat's among those of the seats, and force and moment on both by a
+    /// state, common axes, where the seat turns.
+    pub fn at_ends(&self, state: &RollingState, y: &DVector<f64>) -> Option<([usize; 2], Vector12)> {
+        self.turned.as_ref().map(|seat| (seat.at(), seat.forces(&seat.seen(y), &state.force)))
     }
 
     /// Adds a stiffness between its shaft and its seat.
@@ -90,8 +106,13 @@ impl CompliantBearing {
         }
     }
 
-    /// Results of the bearing after a last step of the seats from the displacements at which `reply` was computed.
+    /// Results of the bearing after a last step of the seats from the displacements at which `reply` was computed, in the
+    /// axes of its seat.
     pub fn state(&self, reply: &RollingReply, y: &DVector<f64>, step: &DVector<f64>) -> RollingState {
+        if let Some(seat) = &self.turned {
+            let seen = seat.seen(y);
+            return RollingState::new(reply, seat.moved(&seen) - self.offset, &seat.step(&seen, step));
+        }
         RollingState::new(reply, self.relative(y), &self.moved(step))
     }
 }

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, SMatrix};
 use reduction::{ElasticGear, GearModes};
 
 use crate::{
-    GearboxError, MeshElement, MeshForces, ModalForces, Vector12, mesh_element::finite_cycles,
+    GearboxError, MeshElement, MeshForces, MeshOfGears, ModalForces, Vector12, mesh_element::finite_cycles,
     modal_contact::ModalContact,
 };
 
@@ -52,11 +52,28 @@ impl ExactMesh {
         gears: impl Into<Arc<[ElasticGear; 2]>>,
         options: StaticOptions,
     ) -> Result<Self, GearboxError> {
+        Self::beside(None, pair, gears, options)
+    }
+
+    /// The same beside another mesh of the same gears, as planets have: matrices and tables are its own.
+    ///
+    /// # Errors
+    /// As of [`ExactMesh::new`].
+    pub fn beside(
+        other: Option<&MeshOfGears>,
+        pair: GearPair,
+        gears: impl Into<Arc<[ElasticGear; 2]>>,
+        options: StaticOptions,
+    ) -> Result<Self, GearboxError> {
         let gears = gears.into();
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
         let window = SlidingWindow::at_start(options.window_teeth(&pair), teeth, options.contact.sense)
             .map_err(StaticError::from)?;
-        let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
+        let known = other.map(|other| other.set(&pair, &gears, window.window(), &options.contact)).transpose()?;
+        let set = match known.flatten() {
+            Some(set) => set,
+            None => ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?,
+        };
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
         let roots = options.root_stress.then(|| RootStress::new(&pair, &gears));
@@ -83,6 +100,12 @@ impl ExactMesh {
         let own = ModalContact::new(&self.pair, &self.gears, self.window.window(), modes, &self.options.contact)?;
         self.modal = Some(own);
         Ok(self)
+    }
+
+    /// What another mesh of the same gears needs not make again.
+    pub fn of_gears(&self) -> MeshOfGears {
+        let (pair, gears, options) = (self.pair.clone(), Arc::clone(&self.gears), self.options.contact.clone());
+        MeshOfGears { pair, gears, options, set: self.contact.contact_set().clone() }
     }
 
     /// The gear pair.

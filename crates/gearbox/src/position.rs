@@ -44,20 +44,31 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
     for (own, reply) in gearbox.compliant_support.iter().zip(&pressed) {
         rolling[own.bearing] = Some(own.state(reply, &seats, &step));
     }
+    let mut turned: Vec<Option<Vector12>> = vec![None; structure.bearings.len()];
+    for own in &gearbox.compliant_support {
+        turned[own.bearing] = rolling[own.bearing].and_then(|state| own.at_ends(&state, &seats)).map(|(_, ends)| ends);
+    }
+    let mut moved: Vec<Option<Vector6<f64>>> = vec![None; structure.bearings.len()];
+    for own in &gearbox.turned_springs {
+        let (displacement, ends) = own.at(&seats);
+        moved[own.bearing] = Some(displacement);
+        turned[own.bearing] = Some(turned[own.bearing].map_or(ends, |rolls| rolls + ends));
+    }
     let bearings: Vec<BearingState> = (0..structure.bearings.len())
         .map(|i| {
             let rolls = rolling[i].map_or_else(Vector6::zeros, |state| state.force);
             // The reaction of a held shaft stands by itself.
             let counts = if gearbox.held[structure.bearings[i].shaft] { 0.0 } else { 1.0 };
-            let own = |k: usize| counts * on_shafts[6 * i + k] + rolls[k];
+            let own = |k: usize| turned[i].map_or_else(|| counts * on_shafts[6 * i + k] + rolls[k], |ends| ends[k]);
             BearingState {
                 force: std::array::from_fn(own),
                 moment: std::array::from_fn(|k| own(3 + k)),
-                displacement: std::array::from_fn(|k| relative[6 * i + k]),
+                displacement: std::array::from_fn(|k| moved[i].map_or(relative[6 * i + k], |moved| moved[k])),
             }
         })
         .collect();
-    let balance = balances(gearbox, &gearbox.reactions(&seats, &forces), &forces, &bearings);
+    let reactions = gearbox.reactions(&seats, &forces, &rolling);
+    let balance = balances(gearbox, &reactions, &forces, (&bearings, &turned));
     let meshes: Vec<MeshState> =
         (replies.iter().zip(&forces).zip(cycles).zip(slices.into_iter().zip(roots)).enumerate())
             .map(|(i, (((reply, force), cycles), solved))| {

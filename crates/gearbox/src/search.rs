@@ -23,7 +23,7 @@ pub(crate) struct Trial {
 impl StaticGearbox {
     /// Equilibrium of the seats under a load, from `start` on.
     pub(crate) fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Trial, GearboxError> {
-        let Self { seats, elements, to_gears, stiffness, compliant_support, norms, meshes, .. } = self;
+        let Self { seats, elements, to_gears, stiffness, compliant_support, turned_springs, norms, meshes, .. } = self;
         let (mut replies, mut pressed) = (Vec::new(), Vec::new());
         let found = equilibrium(norms, load, start, |z| {
             replies.clear();
@@ -34,10 +34,11 @@ impl StaticGearbox {
                 left.tangent -= to_gears.tr_mul(&(reply.tangent * to_gears));
                 replies.push(reply);
             }
-            if !compliant_support.is_empty() {
+            if !(compliant_support.is_empty() && turned_springs.is_empty()) {
                 let y = &seats.basis * z;
                 let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
                 pressed = compliant_support.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
+                turned_springs.iter().for_each(|own| own.add(&y, &mut forces, &mut slopes));
                 left.residual -= seats.basis.tr_mul(&forces);
                 left.tangent -= seats.basis.tr_mul(&(slopes * &seats.basis));
             }

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::{Assembly, GearboxError};
 
 /// Seats: the places of the shafts that forces act on, six coordinates each, and which of them are free. Rolling
-/// bearings and preloaded ones are such places; after them come the open seats of the housing.
+/// bearings, preloaded ones and those in carriers are such places; after them come the open seats of the housing.
 ///
 /// ```text
 /// K_s = T' K T,   q = T y   (all other coordinates follow, exactly at rest);   y = B z
@@ -39,7 +39,7 @@ impl Seats {
             }
         }
         for (i, bearing) in assembly.structure().bearings.iter().enumerate() {
-            let acts = bearing.law.is_some() || bearing.is_pressed();
+            let acts = bearing.law.is_some() || bearing.is_pressed() || assembly.structure().seat_turns(bearing);
             for ((node, _), shaft) in
                 assembly.bearing_ends(i).zip([Some(bearing.shaft), bearing.outer].into_iter().flatten())
             {

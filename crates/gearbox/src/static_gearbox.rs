@@ -8,7 +8,9 @@ use crate::{
     compliant_support::CompliantBearing,
     equilibrium::Norms,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
+    rolling_bearing::RollingState,
     seats::Seats,
+    turned_seat::TurnedSprings,
     unconstrained::check_held,
 };
 
@@ -55,6 +57,8 @@ pub struct StaticGearbox {
     pub(crate) stiffness: DMatrix<f64>,
     /// Bearings with rolling elements.
     pub(crate) compliant_support: Vec<CompliantBearing>,
+    /// Springs whose seats turn with a carrier.
+    pub(crate) turned_springs: Vec<TurnedSprings>,
     pub(crate) norms: Norms,
     /// Angle and solution of the last two positions, the last one first.
     pub(crate) last: Vec<(f64, DVector<f64>)>,
@@ -90,6 +94,7 @@ impl StaticGearbox {
         }
         let stiffness = seats.basis.transpose() * &seats.stiffness * &seats.basis;
         let compliant_support = CompliantBearing::all(&assembly, &seats, &held);
+        let turned_springs = TurnedSprings::all(&assembly, &seats);
         let mut rough = DMatrix::zeros(seats.size(), seats.size());
         let force = guessed_force(&meshes, &operation);
         for own in &compliant_support {
@@ -123,6 +128,7 @@ impl StaticGearbox {
             load,
             stiffness,
             compliant_support,
+            turned_springs,
             norms,
             last: Vec::new(),
             replies: Vec::new(),
@@ -159,11 +165,23 @@ impl StaticGearbox {
         &self.places[mesh]
     }
 
-    /// What holds the seats beside the meshes: forces that shafts, loads and meshes leave over, zero in free coordinates.
-    pub(crate) fn reactions(&self, seats: &DVector<f64>, forces: &[Vector12]) -> DVector<f64> {
+    /// What holds the seats beside the meshes: forces that shafts, loads and meshes leave over, zero in free coordinates
+    /// but for those of rolling elements whose seats do not turn.
+    pub(crate) fn reactions(
+        &self,
+        seats: &DVector<f64>,
+        forces: &[Vector12],
+        rolling: &[Option<RollingState>],
+    ) -> DVector<f64> {
         let mut left = &self.seats.stiffness * seats - &self.load;
         for ((at, _), force) in self.places.iter().zip(forces) {
             left -= spread(left.len(), *at, force);
+        }
+        self.turned_springs.iter().for_each(|own| left -= own.beside_still(seats));
+        for own in &self.compliant_support {
+            if let Some((at, of_ends)) = rolling[own.bearing].and_then(|state| own.at_ends(&state, seats)) {
+                left -= spread(left.len(), at, &of_ends);
+            }
         }
         left
     }

@@ -97,6 +97,7 @@ fn every_key_is_in_a_scene_that_runs() {
         "double_helical.toml",
         "planetary_stage.toml",
         "planetary_stage_ring_fixed.toml",
+        "nrel_5mw_second_stage.toml",
     ];
     let all: String = boxes.iter().map(|name| scratch.read(name)).collect();
     let has = |key: &str| {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use dynamics::{MeshFlanks, RigidBody};
 use fem::Wanted;
 use gearbox::{
-    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train, Vector12,
+    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshOfGears, MeshState, Meshing, Train, Vector12,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
 use ltca::{StaticModel, StaticOptions};
@@ -162,9 +162,19 @@ impl ReducedMesh {
         Ok(Box::new(ExactMesh::new(mesh.pair.clone(), self.gears(), options)?))
     }
 
-    /// Contact of the mesh.
-    pub fn element(&self, mesh: &GearMesh) -> Result<Box<dyn MeshElement>, GearboxError> {
-        Ok(Box::new(self.exact(mesh)?))
+    /// Its contact, beside those of other meshes that stand on the same gears: what these have in common is made once.
+    pub fn element(
+        &self,
+        mesh: &GearMesh,
+        common: &mut Vec<(Arc<ReducedPair>, MeshOfGears)>,
+    ) -> Result<Box<dyn MeshElement>, GearboxError> {
+        let known = common.iter().find(|(pair, _)| Arc::ptr_eq(pair, &self.pair)).map(|(_, own)| own);
+        let is_known = known.is_some();
+        let own = ExactMesh::beside(known, mesh.pair.clone(), self.gears(), self.options.clone())?;
+        if !is_known {
+            common.push((Arc::clone(&self.pair), own.of_gears()));
+        }
+        Ok(Box::new(own))
     }
 
     /// Contact of the mesh, with the elastic modes of its gears.

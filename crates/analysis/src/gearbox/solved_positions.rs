@@ -22,8 +22,9 @@ pub(super) fn at_all_angles(
 ) -> Result<(Vec<GearboxPosition>, Vec<Vec<MeshSample>>), AnalysisError> {
     let Parts { file, structure, meshes, operation, .. } = *parts;
     let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
+    let mut common = Vec::new();
     let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), operation.clone(), |i, mesh, _| {
-        reduced[i].element(mesh)
+        reduced[i].element(mesh, &mut common)
     });
     let mut gearbox = made.map_err(failed)?;
     let mut positions: Vec<GearboxPosition> = Vec::new();

@@ -62,6 +62,7 @@ impl Parts<'_> {
         let means: Vec<MeanMesh> = samples.iter().filter_map(|own| MeanMesh::of(own)).collect();
         let steps = u64::from(positions) * self.meshes.len() as u64;
         run_phase(observer, "mesh cycles", PhaseWork::Steps(steps), |progress| {
+            let mut common = Vec::new();
             let one = |own: usize| {
                 let (structure, meshes) = (self.structure.clone(), self.meshes.to_vec());
                 let made = StaticGearbox::new(structure, meshes, self.operation.clone(), |i, mesh, _| {
@@ -69,7 +70,7 @@ impl Parts<'_> {
                         Some(mean) => Ok(Box::new(mean.clone()) as Box<dyn MeshElement>),
                         None => match mesh.discs.map(|disc| modes.get(disc).cloned().flatten()) {
                             [Some(a), Some(b)] => reduced[i].with_modes(mesh, [a, b]),
-                            _ => reduced[i].element(mesh),
+                            _ => reduced[i].element(mesh, &mut common),
                         },
                     }
                 });

@@ -224,9 +224,15 @@ mod tests {
             let said = said(old, new);
             assert!(said.len() == 1 && said[0].hint().as_deref() == Some(words), "{new}: {said:#?}");
         }
-        for name in
-            ["two_stages", "in_housing", "rolling_bearings", "run_up", "overhung_pinion", "nrel_5mw_third_stage"]
-        {
+        for name in [
+            "two_stages",
+            "in_housing",
+            "rolling_bearings",
+            "run_up",
+            "overhung_pinion",
+            "nrel_5mw_second_stage",
+            "nrel_5mw_third_stage",
+        ] {
             let file = Gearbox::read(&file(&format!("{name}.toml"))).unwrap();
             assert_eq!(gearbox_remarks(&file), Vec::<Remark>::new(), "{name}");
         }

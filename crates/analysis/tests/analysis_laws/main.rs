@@ -22,6 +22,7 @@ mod motion_in_memory;
 mod moving_pairs;
 mod moving_remarks;
 mod nominal_load;
+mod nrel_second_stage;
 mod overhung;
 mod planets;
 mod planets_in_space;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use ale::Station;
 use gearbox::{
-    Bearing, ExactMesh, GearMesh, GearboxPosition, MeshElement, StaticGearbox, Structure, Torque, face_load_factor,
-    line_load,
+    Bearing, ExactMesh, GearMesh, GearboxPosition, MeshElement, StaticGearbox, Structure, Torque, Train, Vector12,
+    face_load_factor, line_load,
 };
-use geometry::{GearPair, Sense};
+use geometry::{FlankModification, GearModifications, GearPair, Sense};
 use ltca::StaticModel;
 use reduction::ElasticGear;
 
@@ -258,4 +258,38 @@ fn a_box_costs_little_more_than_its_meshes() {
     // The clock of a machine is no law; how often the contacts are asked is one.
     let mean = steps as f64 / 192.0;
     assert!(mean < 2.5, "{mean} steps of Newton's method a position");
+}
+
+/// A mesh beside another one of the same gears is the mesh that it is alone, to the bit: with the same flanks, with others,
+/// on more slices, and with another wheel angle. One that is pressed on the other flanks makes its own.
+#[test]
+fn a_mesh_beside_another_is_the_mesh_alone() {
+    let own = pair([17, 53], 15.0);
+    let structure = single(&own, 0.0);
+    let meshes = vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: own.clone() }];
+    let train = Train::new(&structure, &meshes, &[0.0; 4], 2, Sense::Ccw).unwrap();
+    let first = options(&own, &train.meshing()[0], TORQUE);
+    let gears = reduced(&own, &first);
+    let common = ExactMesh::new(own.clone(), Arc::clone(&gears), first.clone()).unwrap().of_gears();
+    let crowning = GearModifications::both(FlankModification { lead_crowning: 5e-3, ..Default::default() });
+    let crowned =
+        GearPair::new(own.pinion.clone().with_modifications(crowning).unwrap(), own.wheel.clone(), None).unwrap();
+    let finer = first.clone().with_contact(|c| c.slices = 24);
+    let turned = first.clone().with_contact(|c| c.wheel_turn = 1e-4);
+    let other = first.clone().with_contact(|c| c.both_flanks = true);
+    for (pair, options) in [(&own, &first), (&crowned, &first), (&own, &finer), (&crowned, &turned), (&own, &other)] {
+        let gears = if options.contact.both_flanks { reduced(pair, options) } else { Arc::clone(&gears) };
+        let mut alone = ExactMesh::new(pair.clone(), Arc::clone(&gears), options.clone()).unwrap();
+        let mut beside = ExactMesh::beside(Some(&common), pair.clone(), gears, options.clone()).unwrap();
+        for cycles in [0.0, 0.3, 1.7, 20.2] {
+            // The driving gear, ahead.
+            let ahead = 2e-3 * first.contact.sense.sign() as f64;
+            let at = Vector12::from_fn(|k, _| if k == 5 { ahead } else { 1e-5 * k as f64 });
+            let [a, b] = [&mut alone, &mut beside].map(|mesh| {
+                mesh.go_to(cycles).unwrap();
+                mesh.evaluate(&at).unwrap()
+            });
+            assert!(a.normal_force > 0.0 && a == b, "{cycles}: {} and {} N", a.normal_force, b.normal_force);
+        }
+    }
 }

@@ -11,15 +11,18 @@ use gearbox::{
 use geometry::{Gear, GearData, GearPair, Sense};
 use nalgebra::{Vector3, Vector6};
 
-use crate::pairs::{operation, shaft, springs};
-use crate::rolling::{balls_209, made};
+use crate::{
+    involute_mesh::involutes,
+    pairs::{operation, shaft},
+    rolling::{balls_209, made},
+};
 
 /// Sun, planet and ring; module 3 mm: 3, 4, 5 and 6 planets go in evenly.
 const TEETH: [u32; 3] = [40, 20, 80];
 const RATIO: f64 = 2.0;
 /// Torque of the ring, N mm.
 const TORQUE: f64 = 8e5;
-/// Stiffness of a mesh along its normal, N/mm, as [`springs`] has it.
+/// Stiffness of a mesh along its normal, N/mm, as [`involutes`] has it.
 const MESH: f64 = 4e5;
 /// Centre distance, mm, and where gears are on shafts of a length.
 const ARM: f64 = 90.0;
@@ -175,7 +178,7 @@ impl Stage {
 
     fn solve(self) -> (Structure, GearboxPosition) {
         let (structure, meshes, run) = self.parts();
-        let made = StaticGearbox::new(structure.clone(), meshes, run, springs);
+        let made = StaticGearbox::new(structure.clone(), meshes, run, involutes);
         (structure, made.and_then(|mut g| g.solve(0.0)).unwrap_or_else(|e| panic!("{e}")))
     }
 
@@ -209,11 +212,15 @@ fn a_rigid_carrier_that_is_held_is_the_ground() {
 }
 
 /// With pins in a carrier of beams: torques sun : ring : carrier = 1 : z_r/z_s : 1 + z_r/z_s, both forces of a planet are
-/// equal, every shaft is in balance, and so is all of it on what stands in the ground. Helical planets want to tilt.
+/// equal, every shaft is in balance, and so is all of it on what stands in the ground, however far the carrier has turned.
+/// Helical planets want to tilt. About axes across, beams are in balance where they are not displaced: what is left over is
+/// less than axial forces on the largest displacement.
 #[test]
 fn a_stage_on_pins_is_in_balance() {
-    for (count, helix_deg) in [(3, 0.0), (3, 12.0), (4, 12.0), (5, 0.0), (6, 12.0)] {
-        let stage = Stage { count, helix_deg, carried: Carried::Pins, off: 2e-3, ..STAGE };
+    for (count, helix_deg, rolls) in
+        [(3, 0.0, false), (3, 12.0, true), (4, 12.0, false), (5, 0.0, true), (6, 12.0, false)]
+    {
+        let stage = Stage { count, helix_deg, rolls, carried: Carried::Pins, off: 2e-3, ..STAGE };
         let (structure, found) = stage.solve();
         let sun = found.input_torque;
         let off = (sun * RATIO / TORQUE - 1.0).abs();
@@ -228,19 +235,29 @@ fn a_stage_on_pins_is_in_balance() {
             let [a, b] = [0, 1].map(|k| found.meshes[2 * n + k].normal_force);
             assert!((a / b - 1.0).abs() < 1e-9, "planet {n} of {count}: {a} and {b} N");
         }
-        assert!(found.certificate.body_balance < 1e-9, "{count} planets: {:?}", found.certificate);
-        let (mut force, mut moment, mut size) = (Vector3::zeros(), Vector3::zeros(), 0.0f64);
+        // Newton's method is quadratic by the right slopes alone.
+        let own = found.certificate;
+        assert!(own.body_balance < 1e-9 && own.iterations < if rolls { 20 } else { 10 }, "{count} planets: {own:?}");
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::<f64>::zeros());
         for (bearing, state) in grounded() {
             let [x, y, z] = structure.shafts[bearing.shaft].origin;
             let own = Vector3::from(state.force);
             force += own;
             moment += Vector3::new(x, y, z + bearing.position).cross(&own) + Vector3::from(state.moment);
-            size = size.max(own.norm());
         }
         moment.z += sun + TORQUE;
-        println!("{count} planets at {helix_deg} degrees: left over {:.1e} N of {size:.0}", force.norm());
-        assert!(force.norm() < 1e-9 * TORQUE / ARM, "{count} planets: {force:?} N left over");
-        assert!(moment.norm() < 1e-9 * TORQUE, "{count} planets: {moment:?} N mm left over");
+        let lag = found.output_lags[0];
+        println!(
+            "{count} planets at {helix_deg} degrees, {lag:.1e} rad: left over {:.1e} N, {:.1e} N mm",
+            force.norm(),
+            moment.z
+        );
+        assert!(lag > 1e-3 && force.norm() < 1e-9 * TORQUE / ARM, "{count} planets: {force:?} N left over");
+        assert!(moment.z.abs() < 1e-9 * TORQUE, "{count} planets: {moment:?} N mm left over");
+        let of_nodes = found.shafts.iter().flat_map(|line| &line.displacements).map(|d| d[0].hypot(d[1]));
+        let axial: f64 = found.meshes.iter().map(|mesh| mesh.force[0][2].abs()).sum();
+        let across = of_nodes.fold(0.0, f64::max) * axial + 1e-9 * TORQUE;
+        assert!(moment.xy().norm() < across, "{count} planets: {moment:?} N mm left over, {across}");
     }
 }
 
@@ -276,8 +293,9 @@ fn a_pin_error_is_shared_by_the_path_stiffness() {
     }
 }
 
-/// K_gamma - 1 goes with 1/torque as long as all planets carry: a pin error takes a force, not a share. The share of each is
-/// its force over the sum, and a planet that carries nothing leaves N/(N - 1) and more to the others.
+/// K_gamma - 1 goes with 1/torque as long as all planets carry: a pin error takes a force, not a share; but for pressure
+/// angles, which follow the displacements of the axes in proportion to the torque. The share of each is its force over the
+/// sum, and a planet that carries nothing leaves N/(N - 1) and more to the others.
 #[test]
 fn the_load_sharing_factor_is_a_hyperbola_over_the_torque() {
     let over = |torque: f64, off: f64| {
@@ -299,7 +317,9 @@ fn the_load_sharing_factor_is_a_hyperbola_over_the_torque() {
     };
     let all = [1.0, 2.0, 5.0].map(|times| times * extra(times * TORQUE));
     println!("K_gamma - 1 times the torque: {all:?}");
-    assert!(all[0] > 0.02 && all.iter().all(|own| (own / all[0] - 1.0).abs() < 1e-9), "{all:?}");
+    assert!(all[0] > 0.02 && all.iter().all(|own| (own / all[0] - 1.0).abs() < 1e-3), "{all:?}");
+    let [twice, five] = [1, 2].map(|i| all[i] - all[0]);
+    assert!((five / twice / 4.0 - 1.0).abs() < 0.01, "{all:?}");
     let ([idle, _], forces) = over(TORQUE, 1.0);
     assert!(forces[0] == 0.0 && idle.planets[0].mean == 0.0, "{forces:?}");
     assert!(idle.factor.unwrap() >= 1.5 - 1e-12, "{idle:?}");
@@ -395,7 +415,7 @@ fn seats_that_cannot_be_are_refused() {
     let told = |change: &dyn Fn(&mut Structure, &mut Operation)| -> GearboxError {
         let (mut structure, meshes, mut run) = stage.parts();
         change(&mut structure, &mut run);
-        let Err(error) = StaticGearbox::new(structure, meshes, run, springs) else { panic!("taken") };
+        let Err(error) = StaticGearbox::new(structure, meshes, run, involutes) else { panic!("taken") };
         assert!(error.hint().is_some_and(|hint| !hint.is_empty()), "{error}");
         error
     };
