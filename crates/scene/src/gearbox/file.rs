@@ -135,6 +135,8 @@ pub struct PlanetMesh {
     pub name: String,
     /// Meshes of the planets, in their order.
     pub of_planets: Vec<usize>,
+    /// Which of its gears is the planet: 0 pinion, 1 wheel.
+    pub planet: usize,
 }
 
 /// Operation that meshes and bearings are rated for.
