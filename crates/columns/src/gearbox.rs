@@ -62,6 +62,8 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
             push(format!("mesh_{}_load_share", i + 1), meaning, &|p| {
                 load_shares(p, &mesh.of_planets).map_or(0.0, |shares| shares[n])
             });
+            let meaning = "angle of this planet's axis from its nominal direction at its gear in this mesh";
+            push(format!("mesh_{}_planet_tilt_urad", i + 1), meaning, &|p| 1e6 * p.meshes[*i].tilt(mesh.planet));
         }
     }
     for i in 0..file.bearings.len() {

@@ -58,6 +58,18 @@ pub struct MeshState {
     pub root_stress: [Vec<FilletField>; 2],
 }
 
+impl MeshState {
+    /// Tilt of gear 1 (0) or gear 2 (1): angle of its axis from the nominal one, rad.
+    ///
+    /// ```text
+    /// tilt = sqrt(theta_x^2 + theta_y^2)
+    /// ```
+    pub fn tilt(&self, gear: usize) -> f64 {
+        let [x, y] = [3, 4].map(|k| self.displacements.get(6 * gear + k).copied().unwrap_or(f64::NAN));
+        x.hypot(y)
+    }
+}
+
 /// Residuals of a solved position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxCertificate {

@@ -22,6 +22,7 @@ enum Of {
     Outputs(fn(&OutputResult) -> f64),
     Bearings(fn(&BearingLoad) -> f64),
     Planets(fn(&LoadSharing) -> Option<f64>),
+    PlanetTilts(fn(&[f64]) -> f64),
     MeshesRated(fn(&RatingHeadline) -> Option<f64>),
     BearingsRated(fn(&BearingLife) -> Option<f64>),
     BearingsLosing(fn(&RollingLoad) -> Option<f64>),
@@ -55,7 +56,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 46] = [
+const NUMBERS: [Number; 47] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -107,6 +108,11 @@ const NUMBERS: [Number; 46] = [
         "load_sharing_factor",
         "K_gamma of each mesh that planets have in common, in the order of the file: the largest share of a planet over that of an even load, over all positions; with `[[planets]]`",
         Of::Planets(|p| p.factor),
+    ),
+    list(
+        "max_planet_tilt_urad",
+        "largest angle of a planet's axis from its nominal direction, of the gears of each mesh that planets have in common, in the order of the file; with `[[planets]]`",
+        Of::PlanetTilts(|all| 1e6 * all.iter().copied().fold(0.0, f64::max)),
     ),
     list(
         "least_pitting_safety",
@@ -308,6 +314,10 @@ impl GearboxResult {
                 Of::Outputs(own) => self.outputs.iter().map(own).collect(),
                 Of::Bearings(own) => self.bearings.iter().map(own).collect(),
                 Of::Planets(own) => (!self.planets.is_empty()).then(|| self.planets.iter().map(own).collect())?,
+                Of::PlanetTilts(own) => {
+                    let all = &self.planet_tilts;
+                    (!all.is_empty()).then(|| all.iter().map(|tilts| own(tilts)).collect())?
+                }
                 Of::MeshesRated(own) => {
                     let of = |m: &MeshResult| m.rating.as_ref().and_then(own);
                     self.rates.meshes.then(|| self.meshes.iter().map(of).collect())?
@@ -377,7 +387,7 @@ impl GearboxResult {
             }
             Of::Outputs(_) => Some(Some(file.torques.len())),
             Of::Bearings(_) => Some(Some(file.bearings.len())),
-            Of::Planets(_) => (of_planets > 0).then_some(Some(of_planets)),
+            Of::Planets(_) | Of::PlanetTilts(_) => (of_planets > 0).then_some(Some(of_planets)),
             Of::MeshesRated(_) => rates.meshes.then_some(Some(file.meshes.len())),
             Of::Efficient => rates.efficiency.then_some(None),
             Of::BearingsRolling(_) => {

@@ -8,7 +8,7 @@ use gearbox::{GearMesh, GearboxPosition, LoadSharing, MeshState, Structure, Trai
 use geometry::{GearPair, Side};
 use scene::{
     Scene,
-    gearbox::{Gearbox, GearboxBearing, GearboxMesh},
+    gearbox::{Gearbox, GearboxBearing, GearboxMesh, PlanetMesh},
 };
 
 use super::{
@@ -51,6 +51,8 @@ pub struct GearboxResult {
     pub outputs: Vec<OutputResult>,
     /// Load sharing of the planets in each mesh that they have in common ([`Gearbox::meshes_of_planets`]).
     pub planets: Vec<LoadSharing>,
+    /// Largest tilt of the gear of each planet in such a mesh, rad.
+    pub planet_tilts: Vec<Vec<f64>>,
     /// Mean torque at the input, N mm about +z.
     pub input_torque: f64,
     /// Worst values of all positions: residual, balance of bodies.
@@ -250,6 +252,10 @@ pub(super) fn result(
         let own = || all.iter().map(move |p| p.output_lags[i]);
         OutputResult { mean: mean(own()), peak_to_peak: peak_to_peak(own()) }
     };
+    let tilts = |mesh: &PlanetMesh| {
+        let largest = |i: &usize| all.iter().map(|p| p.meshes[*i].tilt(mesh.planet)).fold(0.0, f64::max);
+        mesh.of_planets.iter().map(largest).collect()
+    };
     let worst = |of: &dyn Fn(&GearboxPosition) -> f64| all.iter().map(of).fold(0.0, crate::worse);
     let of_meshes: Vec<MeshResult> = (0..meshes.len()).map(mesh).collect();
     let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
@@ -284,6 +290,7 @@ pub(super) fn result(
         bearings,
         outputs: (0..file.torques.len()).map(output).collect(),
         planets: file.meshes_of_planets().map(|(_, mesh)| LoadSharing::of(all, &mesh.of_planets)).collect(),
+        planet_tilts: file.meshes_of_planets().map(|(_, mesh)| tilts(mesh)).collect(),
         input_torque: mean(all.iter().map(|p| p.input_torque)),
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
         pairs,

@@ -58,7 +58,12 @@ impl Stage {
     }
 
     pub(crate) fn solve(self) -> GearboxResult {
-        let text = self.text();
+        self.solve_with(|text| text)
+    }
+
+    /// With its document changed.
+    fn solve_with(self, change: impl Fn(String) -> String) -> GearboxResult {
+        let text = change(self.text());
         let file = Gearbox::parse(&text, Path::new("stage.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
         solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).unwrap_or_else(|e| panic!("{e}"))
     }
@@ -146,6 +151,34 @@ fn planets_share_the_load_in_their_phases() {
         let largest = largest.fold(0.0, f64::max);
         assert!(factors.iter().all(|k| (k / largest - 1.0).abs() < 1e-8), "{factors:?} beside {largest}");
     }
+}
+
+/// The tilt of a planet that is told is that of its shaft where its gear is, the largest of all positions; perfect planets in
+/// phase tilt alike. One of the bearings of each is near the gear.
+#[test]
+fn planets_tilt_as_their_shafts_do() {
+    let stage = Stage { teeth: [40, 20, -80], count: 4, pin: 5.0, ..STAGE };
+    let change = |text: String| {
+        let near = "name = \"planet a\"\nshaft = \"planet\"\nposition_mm = ";
+        assert!(text.contains(near));
+        text.replace(&format!("{near}5.0"), &format!("{near}20.0"))
+    };
+    let found = stage.solve_with(change);
+    let at_gear = |shaft: usize, p: &gearbox::GearboxPosition| {
+        let line = &p.shafts[shaft];
+        let node = line.positions.iter().position(|z| (z - 30.0).abs() < 1e-9).unwrap();
+        line.displacements[node][3].hypot(line.displacements[node][4])
+    };
+    for tilts in &found.planet_tilts {
+        for (n, tilt) in tilts.iter().enumerate() {
+            let largest = found.positions.iter().map(|p| at_gear(2 + n, p)).fold(0.0, f64::max);
+            assert!(*tilt > 1e-6 && (tilt / largest - 1.0).abs() < 1e-12, "{tilts:?} beside {largest}");
+        }
+    }
+    let even = Stage { pin: 0.0, ..stage }.solve_with(change);
+    println!("{:.2e} rad with a pin off, {:.2e} rad", found.planet_tilts[0][0], even.planet_tilts[0][0]);
+    let alike = |tilts: &Vec<f64>| tilts.iter().all(|own| (own / tilts[0] - 1.0).abs() < 1e-6);
+    assert!(even.planet_tilts.len() == 2 && even.planet_tilts.iter().all(alike), "{:?}", even.planet_tilts);
 }
 
 /// A pin that stands off by e along the pitch circle: F_1 - F/3 : F_2 - F/3 = 2 : -1 with the sun fixed, in proportion to e;

@@ -261,6 +261,33 @@ fn a_stage_on_pins_is_in_balance() {
     }
 }
 
+/// Axial forces of both meshes of a helical planet are opposite, on both sides of its axis: its bearings hold the moment
+/// F_t tan b (d_ws + d_wr)/2, which tilts it, to 1e-6 under a load that moves nothing by more than that of the radii. Spur
+/// planets on both sides alike do not tilt.
+#[test]
+fn helical_planets_are_tilted_by_their_meshes() {
+    for (count, helix_deg) in [(3, 0.0), (3, 12.0), (4, -20.0)] {
+        let stage = Stage { count, helix_deg, torque: 1e-3 * TORQUE, carried: Carried::Body(1e6, 1e11), ..STAGE };
+        let (structure, found) = stage.solve();
+        let of_teeth = 1.5 * f64::from(TEETH[1]);
+        for n in 0..count {
+            let mut held = Vector3::zeros();
+            for (bearing, state) in structure.bearings.iter().zip(&found.bearings).filter(|(b, _)| b.shaft == 2 + n) {
+                let arm = Vector3::new(0.0, 0.0, bearing.position - MIDDLE);
+                held += arm.cross(&Vector3::from(state.force)) + Vector3::from(state.moment);
+            }
+            let axial = [2 * n, 2 * n + 1].map(|m| found.meshes[m].force[[1, 0][m % 2]][2]);
+            let tangential = found.input_torque / count as f64 / (1.5 * f64::from(TEETH[0]));
+            let wanted = tangential * helix_deg.to_radians().tan().abs() * 2.0 * of_teeth;
+            let off = (held.xy().norm() - wanted).abs() / (tangential * of_teeth);
+            let tilt = [found.meshes[2 * n].tilt(1), found.meshes[2 * n + 1].tilt(0)];
+            println!("{helix_deg} degrees: {:.6} of {wanted:.6} N mm, tilts {tilt:?}", held.xy().norm());
+            assert!(off < 1e-6 && (axial[0] + axial[1]).abs() < 1e-9 * tangential, "{off:e}, {axial:?}");
+            assert!((tilt[0] - tilt[1]).abs() <= 1e-12 * tilt[0] && (tilt[0] > 1e-9) == (helix_deg != 0.0), "{tilt:?}");
+        }
+    }
+}
+
 /// A pin that stands ahead by e along the circle, in the sense of the sun, in bearings that do not give way: with the path
 /// stiffness k of a planet its force is less than the mean by k e (1 - 1/N) with the sun fixed and by k e (1 - 3/N) with
 /// one that floats, to 2e-3: bearings of 1e9 N/mm and shafts

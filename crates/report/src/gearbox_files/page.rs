@@ -89,7 +89,7 @@ fn meshes(result: &GearboxResult) -> Part {
 
 /// How planets share the load, where there are some.
 fn planets(file: &Gearbox, result: &GearboxResult) -> Option<Part> {
-    let of_mesh = |((own, mesh), sharing): ((&GearboxPlanets, &PlanetMesh), &LoadSharing)| {
+    let of_mesh = |((own, mesh), (sharing, tilts)): ((&GearboxPlanets, &PlanetMesh), (&LoadSharing, &Vec<f64>))| {
         let mean = |share: &PlanetShare| 100.0 * share.mean;
         let means = sharing.planets.iter().map(|share| crate::tables::fixed(mean(share), 2));
         vec![
@@ -97,14 +97,15 @@ fn planets(file: &Gearbox, result: &GearboxResult) -> Option<Part> {
             Cell::count(own.angles.len()),
             Cell::count(means.collect::<Vec<_>>().join(", ")),
             Cell::number(sharing.factor, 4),
+            Cell::number(Some(1e6 * tilts.iter().copied().fold(0.0, f64::max)), 1),
         ]
     };
-    let rows = file.meshes_of_planets().zip(&result.planets).map(of_mesh);
-    let head = ["mesh", "planets", "mean shares %", "K_gamma"];
+    let rows = file.meshes_of_planets().zip(result.planets.iter().zip(&result.planet_tilts)).map(of_mesh);
+    let head = ["mesh", "planets", "mean shares %", "K_gamma", "tilt µrad"];
     (!result.planets.is_empty()).then(|| {
         Part::new("Planets").closing().grid(Grid::new(head).rows(rows)).note(
             "Share of each planet in the normal forces of all. K_gamma: the largest share at any position over that of an \
-             even load.",
+             even load. Tilt: the largest angle of a planet's axis from its nominal direction.",
         )
     })
 }

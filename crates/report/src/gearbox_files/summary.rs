@@ -133,6 +133,8 @@ described::described! {
         min_load_share: Vec<f64>,
         /// largest share of each planet
         max_load_share: Vec<f64>,
+        /// largest angle of each planet's axis from its nominal direction, at its gear in this mesh
+        max_tilt_urad: Vec<f64>,
     }
 
     /// A bearing over all positions.
@@ -339,7 +341,7 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
         outputs: outputs
             .map(|o| OutputSummary { mean_lag_urad: 1e6 * o.mean, peak_to_peak_lag_urad: 1e6 * o.peak_to_peak })
             .collect(),
-        planets: file.meshes_of_planets().zip(&result.planets).map(planets).collect(),
+        planets: file.meshes_of_planets().zip(result.planets.iter().zip(&result.planet_tilts)).map(planets).collect(),
         positions: result.positions.len(),
         motion: summary(file, result),
         branch: result.branch.as_ref().map(|own| BranchSummary::new(result, own)),
@@ -363,7 +365,9 @@ fn roots<'a>(file: &'a Gearbox, result: &GearboxResult) -> Vec<RootSummary<'a>> 
     file.gears.iter().zip(&result.root_bending).flat_map(of_gear).collect()
 }
 
-fn planets<'a>(((own, mesh), sharing): ((&'a GearboxPlanets, &'a PlanetMesh), &LoadSharing)) -> PlanetsSummary<'a> {
+fn planets<'a>(
+    ((own, mesh), (sharing, tilts)): ((&'a GearboxPlanets, &'a PlanetMesh), (&LoadSharing, &Vec<f64>)),
+) -> PlanetsSummary<'a> {
     let share = |of: fn(&PlanetShare) -> f64| sharing.planets.iter().map(of).collect();
     PlanetsSummary {
         planets: &own.name,
@@ -373,6 +377,7 @@ fn planets<'a>(((own, mesh), sharing): ((&'a GearboxPlanets, &'a PlanetMesh), &L
         mean_load_share: share(|s| s.mean),
         min_load_share: share(|s| s.least),
         max_load_share: share(|s| s.largest),
+        max_tilt_urad: tilts.iter().map(|tilt| 1e6 * tilt).collect(),
     }
 }
 

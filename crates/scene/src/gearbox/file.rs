@@ -135,6 +135,8 @@ pub struct PlanetMesh {
     pub name: String,
     /// Indices of the planets' meshes, in order.
     pub of_planets: Vec<usize>,
+    /// Which of its gears is the planet: 0 pinion, 1 wheel.
+    pub planet: usize,
 }
 
 /// Operating conditions for the rating of meshes and bearings.

@@ -314,6 +314,7 @@ impl WrittenOut {
             let mesh = |mesh: usize| PlanetMesh {
                 name: self.meshes[mesh].name.clone(),
                 of_planets: (mesh..mesh + count).collect(),
+                planet: usize::from(!of_planet(&self.shafts[gears[meshes[mesh].gears[0]].shaft], 0)),
             };
             let of_meshes = (0..meshes.len()).filter(first).map(mesh).collect();
             self.apart(s, &tables[g], g, (shafts, gears, meshes))?;
