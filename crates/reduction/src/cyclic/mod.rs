@@ -13,6 +13,7 @@
 //! B_d = B_-d', which one tooth's loads tell. The result is the condensation of the whole gear to round-off, at the
 //! cost of one sector. Nothing is approximated: cuts are eliminated as any other freedom is.
 
+mod between;
 mod blocks;
 mod chain;
 mod placement;
@@ -30,7 +31,7 @@ use fem::{BoundaryLastFactor, ElementOptions, Material, Wanted, dense, unless_un
 use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
-pub(crate) use blocks::ToothBlocks;
+pub(crate) use blocks::{ToothBlocks, turned};
 use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use sector::Sector;
