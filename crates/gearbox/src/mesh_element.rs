@@ -4,7 +4,7 @@ use contact::SliceResult;
 use ltca::FilletField;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use crate::GearboxError;
+use crate::{ExactMesh, GearboxError};
 
 /// Displacements of gear 1 and gear 2, or forces on them: x, y, z and the turns about them, twice. The mesh's own axes:
 /// x from gear 1's axis to gear 2's, z as all axes.
@@ -49,6 +49,12 @@ pub trait MeshElement {
     /// # Errors
     /// [`GearboxError`] when there are none.
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError>;
+
+    /// Its slices, which those of other meshes of the same gears can be joined with ([`crate::StaticGearbox::joined`]); for
+    /// elements that are them.
+    fn exact(&mut self) -> Option<&mut ExactMesh> {
+        None
+    }
 
     /// Asked once equilibrium is found, after the last [`MeshElement::evaluate`]: whether the forces are all there are.
     ///

@@ -10,6 +10,7 @@ mod fields;
 mod forced;
 mod idlers;
 mod internal_motion;
+mod joined;
 mod mapped_friction;
 mod mapped_pair;
 mod modes_in_motion;
