@@ -24,12 +24,12 @@ use crate::{
 #[derive(Debug)]
 pub struct ExactMesh {
     pair: GearPair,
-    gears: Arc<[ElasticGear; 2]>,
+    pub(crate) gears: Arc<[ElasticGear; 2]>,
     options: StaticOptions,
-    contact: MeshContact,
+    pub(crate) contact: MeshContact,
     window: SlidingWindow,
     station: Station,
-    poses: [Pose; 2],
+    pub(crate) poses: [Pose; 2],
     /// Gap up to which the last evaluation has rows, mm; none where the next one looks for all that are near.
     within: Option<f64>,
     /// The contact with elastic modes as coordinates, where some are kept.
@@ -136,11 +136,29 @@ impl ExactMesh {
         Ok(found)
     }
 
-    fn place(&mut self, d: &Vector12) {
+    /// Moves the gears to displacements.
+    pub(crate) fn place(&mut self, d: &Vector12) {
         let set = self.contact.contact_set();
         let window = self.window.window();
         let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
         self.poses = displaced(nominal, &(*d).into());
+    }
+
+    /// Forces of the last evaluation, which was at displacements `d`.
+    pub(crate) fn forces(&self, d: &Vector12) -> MeshForces {
+        self.in_coordinates(found_forces(self.contact.force()), d)
+    }
+
+    /// From forces and moments to what does the work of the coordinates; `None` where it is the same.
+    pub(crate) fn generalised(&self, d: &Vector12) -> Option<SMatrix<f64, 12, 12>> {
+        generalised(&self.poses, &(*d).into())
+    }
+
+    fn in_coordinates(&self, found: MeshForces, d: &Vector12) -> MeshForces {
+        match self.generalised(d) {
+            None => found,
+            Some(g) => MeshForces { force: g * found.force, tangent: g * found.tangent * g.transpose(), ..found },
+        }
     }
 
     /// Length of the slices that carried load in the last evaluation, mm.
@@ -149,12 +167,26 @@ impl ExactMesh {
         slices.filter(|(_, f)| **f > 0.0).map(|(slice, _)| slice.length).sum()
     }
 
-    fn failed(&self, source: contact::ContactError) -> GearboxError {
+    pub(crate) fn failed(&self, source: contact::ContactError) -> GearboxError {
         StaticError::Contact { cycle: self.station.cycle, phase: self.station.phase, source }.into()
     }
 }
 
+/// Forces of a contact about the gears' centres.
+fn found_forces(found: &MeshForce) -> MeshForces {
+    let force = Vector12::from_fn(|i, _| {
+        let wrench = &found.wrench[i / 6];
+        if i % 6 < 3 { wrench.force[i % 3] } else { wrench.moment[i % 3] }
+    });
+    let tangent = SMatrix::from_fn(|i, j| found.tangent[i][j]);
+    MeshForces { force, tangent, normal_force: found.pair_forces.iter().sum() }
+}
+
 impl MeshElement for ExactMesh {
+    fn exact(&mut self) -> Option<&mut ExactMesh> {
+        Some(self)
+    }
+
     fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
         let station = Station::at_cycles(finite_cycles(cycles)?);
         let teeth = [self.pair.pinion.teeth(), self.pair.wheel.teeth()];
@@ -183,16 +215,8 @@ impl MeshElement for ExactMesh {
             Ok(found) => found,
             Err(source) => return Err(self.failed(source)),
         };
-        let force = Vector12::from_fn(|i, _| {
-            let wrench = &found.wrench[i / 6];
-            if i % 6 < 3 { wrench.force[i % 3] } else { wrench.moment[i % 3] }
-        });
-        let tangent = SMatrix::from_fn(|i, j| found.tangent[i][j]);
-        let normal_force = found.pair_forces.iter().sum();
-        Ok(match generalised(&self.poses, &(*d).into()) {
-            None => MeshForces { force, tangent, normal_force },
-            Some(g) => MeshForces { force: g * force, tangent: g * tangent * g.transpose(), normal_force },
-        })
+        let forces = found_forces(&found);
+        Ok(self.in_coordinates(forces, d))
     }
 
     /// Refuses a window beside which a pair of teeth ought to carry load.

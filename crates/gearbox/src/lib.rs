@@ -28,6 +28,7 @@ mod equilibrium;
 mod error;
 mod even_mesh;
 mod exact_mesh;
+mod joined_meshes;
 mod linearised;
 mod load_sharing;
 mod mesh_bears;

@@ -4,7 +4,7 @@ use contact::SliceResult;
 use ltca::FilletField;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use crate::GearboxError;
+use crate::{ExactMesh, GearboxError};
 
 /// Displacements of gear 1 and gear 2, or forces on them: x, y, z and the rotations about them, for each gear. They are
 /// in the mesh's own axes: x from gear 1's axis to gear 2's, z as everywhere.
@@ -51,6 +51,12 @@ pub trait MeshElement {
     /// # Errors
     /// [`GearboxError`] if the forces cannot be computed.
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError>;
+
+    /// Its slices, which those of other meshes of the same gears can be joined with ([`crate::StaticGearbox::joined`]); for
+    /// elements that are them.
+    fn exact(&mut self) -> Option<&mut ExactMesh> {
+        None
+    }
 
     /// Checks, once equilibrium is found and after the last [`MeshElement::evaluate`], that no other contact would add
     /// forces.

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    GearboxError, MeshForces, StaticGearbox,
+    GearMesh, GearboxError, MeshElement, MeshForces, StaticGearbox, Vector12,
     equilibrium::{Converged, Left, equilibrium},
+    joined_meshes::{AcrossMeshes, JoinedMeshes},
     rolling_bearing::RollingReply,
     static_gearbox::at_mesh,
 };
@@ -17,22 +18,28 @@ const MOST_POWERS: i32 = 8;
 pub(crate) struct Trial {
     pub found: Converged,
     pub replies: Vec<MeshForces>,
+    /// How joined meshes follow each other's gears.
+    pub across: Vec<AcrossMeshes>,
     pub pressed: Vec<RollingReply>,
 }
 
 impl StaticGearbox {
     /// Equilibrium of the seats under a load, from `start` on.
     pub(crate) fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Trial, GearboxError> {
-        let Self { seats, elements, to_gears, stiffness, compliant_support, turned_springs, norms, meshes, .. } = self;
-        let (mut replies, mut pressed) = (Vec::new(), Vec::new());
+        let Self {
+            seats, elements, joined, to_gears, stiffness, compliant_support, turned_springs, norms, meshes, ..
+        } = self;
+        let (mut replies, mut across, mut pressed) = (Vec::new(), Vec::new(), Vec::new());
         let found = equilibrium(norms, load, start, |z| {
-            replies.clear();
             let mut left = Left { residual: &*stiffness * z - load, tangent: stiffness.clone() };
-            for (i, (to_gears, element)) in to_gears.iter().zip(elements.iter_mut()).enumerate() {
-                let reply = element.evaluate(&(to_gears * z)).map_err(|source| at_mesh(&meshes[i], source))?;
+            let displacements: Vec<Vector12> = to_gears.iter().map(|to_gears| to_gears * z).collect();
+            (replies, across) = mesh_forces((meshes, elements), joined, &displacements)?;
+            for (to_gears, reply) in to_gears.iter().zip(&replies) {
                 left.residual -= to_gears.tr_mul(&reply.force);
                 left.tangent -= to_gears.tr_mul(&(reply.tangent * to_gears));
-                replies.push(reply);
+            }
+            for own in &across {
+                left.tangent -= to_gears[own.of].tr_mul(&(own.tangent * &to_gears[own.by]));
             }
             if !(compliant_support.is_empty() && turned_springs.is_empty()) {
                 let y = &seats.basis * z;
@@ -44,7 +51,7 @@ impl StaticGearbox {
             }
             Ok(left)
         })?;
-        Ok(Trial { found, replies, pressed })
+        Ok(Trial { found, replies, across, pressed })
     }
 
     /// Search by way of heavier loads. Under a light load play is a bent valley with walls that are hard beside the
@@ -61,4 +68,21 @@ impl StaticGearbox {
         }
         None
     }
+}
+
+/// Forces of all meshes at displacements, those that gears join together; and how these follow each other's gears.
+fn mesh_forces(
+    (meshes, elements): (&[GearMesh], &mut [Box<dyn MeshElement>]),
+    joined: &mut [JoinedMeshes],
+    displacements: &[Vector12],
+) -> Result<(Vec<MeshForces>, Vec<AcrossMeshes>), GearboxError> {
+    let (mut replies, mut across) = (vec![None; meshes.len()], Vec::new());
+    for own in joined {
+        across.extend(own.evaluate((meshes, elements), displacements, &mut replies)?);
+    }
+    let alone = |(i, reply): (usize, Option<MeshForces>)| match reply {
+        Some(reply) => Ok(reply),
+        None => elements[i].evaluate(&displacements[i]).map_err(|source| at_mesh(&meshes[i], source)),
+    };
+    Ok((replies.into_iter().enumerate().map(alone).collect::<Result<_, _>>()?, across))
 }

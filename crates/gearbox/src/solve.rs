@@ -7,6 +7,7 @@ use nalgebra::DVector;
 
 use crate::{
     GearboxError, GearboxPosition, MeshForces, StaticGearbox, Vector12,
+    joined_meshes::AcrossMeshes,
     position::{Solved, position},
     search::Trial,
     static_gearbox::at_mesh,
@@ -34,7 +35,7 @@ impl StaticGearbox {
             }
             other => other,
         };
-        let Trial { found, mut replies, pressed } = sought?;
+        let Trial { found, mut replies, across, pressed } = sought?;
         let Self { elements, meshes, last, .. } = self;
         let mut slices: Vec<Vec<SliceResult>> = elements.iter().map(|e| e.slices()).collect();
         let mut roots = Vec::with_capacity(elements.len());
@@ -44,7 +45,7 @@ impl StaticGearbox {
         }
         last.insert(0, (angle, found.displacements.clone()));
         last.truncate(2);
-        self.follow(&mut replies, (&mut slices, &mut roots), &found.last_step);
+        self.follow((&mut replies, &across), (&mut slices, &mut roots), &found.last_step);
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
         Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices, roots }))
@@ -54,13 +55,17 @@ impl StaticGearbox {
     /// sum and stress in fillets go with the moment on gear 2, pressures as its square root.
     fn follow(
         &self,
-        replies: &mut [MeshForces],
+        (replies, across): (&mut [MeshForces], &[AcrossMeshes]),
         (slices, roots): (&mut [Vec<SliceResult>], &mut [[Vec<FilletField>; 2]]),
         step: &DVector<f64>,
     ) {
-        for (((to_gears, reply), slices), roots) in self.to_gears.iter().zip(replies).zip(slices).zip(roots) {
+        let steps: Vec<Vector12> = self.to_gears.iter().map(|to_gears| to_gears * step).collect();
+        for (i, ((reply, slices), roots)) in replies.iter_mut().zip(slices).zip(roots).enumerate() {
             let before = reply.force[11];
-            reply.force += reply.tangent * (to_gears * step);
+            reply.force += reply.tangent * steps[i];
+            for own in across.iter().filter(|own| own.of == i) {
+                reply.force += own.tangent * steps[own.by];
+            }
             let grown = reply.force[11] / before;
             if grown > 0.0 && grown.is_finite() {
                 reply.normal_force *= grown;

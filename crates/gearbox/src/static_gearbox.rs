@@ -8,6 +8,7 @@ use crate::{
     compliant_support::CompliantBearing,
     equilibrium::Norms,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
+    joined_meshes::JoinedMeshes,
     rolling_bearing::RollingState,
     seats::Seats,
     turned_seat::TurnedSprings,
@@ -48,6 +49,8 @@ pub struct StaticGearbox {
     pub(crate) held: Vec<bool>,
     pub(crate) seats: Seats,
     pub(crate) elements: Vec<Box<dyn MeshElement>>,
+    /// Meshes that are one contact.
+    pub(crate) joined: Vec<JoinedMeshes>,
     /// First coordinates of both gears of each mesh among the seats', and the turn of its axes.
     pub(crate) places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
     /// Displacements of both gears of each mesh in its own axes by the coordinates z, 12 x n.
@@ -123,6 +126,7 @@ impl StaticGearbox {
             held,
             seats,
             elements: made,
+            joined: Vec::new(),
             places,
             to_gears,
             load,
@@ -133,6 +137,21 @@ impl StaticGearbox {
             last: Vec::new(),
             replies: Vec::new(),
         })
+    }
+
+    /// The gearbox with exact meshes of one gear joined to one contact: what one of them presses moves, through the elastic
+    /// body of the gear, the flanks in the others. Without it each mesh acts alone on the body.
+    ///
+    /// ```text
+    /// g_i = g0_i + sum_j S_ij F_j + delta_i(F_i),   S between two meshes = A_1 C_12 A_2'
+    /// ```
+    /// i, j: slices of all joined meshes; C_12: compliance between the windows of the gear
+    /// ([`reduction::GearReducer::compliance_between`]). [`StaticGearbox::solve`] fails where a gear is not reduced from the
+    /// same mesh in all of its meshes. Theory (38a).
+    #[must_use]
+    pub fn joined(mut self) -> Self {
+        self.joined = JoinedMeshes::all(&self.meshes, self.train.meshing(), &mut self.elements);
+        self
     }
 
     /// Nominal motion of the train.

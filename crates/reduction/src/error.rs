@@ -99,6 +99,9 @@ pub enum ReductionError {
     /// Condensation by layers of a gear whose teeth are not all equal.
     #[error("a gear that is to be condensed by its layers must be one sector, which its copies join")]
     NoSectorOfLayers,
+    /// Two reductions of a gear that is in several meshes.
+    #[error("a gear in several meshes has another mesh, material, bore or way of reduction in one of them")]
+    OtherReduction,
     /// Normal modes of one gear were requested on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
@@ -149,6 +152,9 @@ impl ReductionError {
                 Some("take the general way (`reduction = \"general\"` in [analysis]), or a narrower gear".into())
             }
             Self::NoSectorOfLayers => None,
+            Self::OtherReduction => {
+                Some("give it the same mesh, `[mesher]`, bore, material and `reduction` in the scenes of all its meshes".into())
+            }
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }

@@ -26,7 +26,7 @@ pub(super) fn at_all_angles(
     let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), operation.clone(), |i, mesh, _| {
         reduced[i].element(mesh, &mut common)
     });
-    let mut gearbox = made.map_err(failed)?;
+    let mut gearbox = made.map_err(failed)?.joined();
     let mut positions: Vec<GearboxPosition> = Vec::new();
     let mut samples: Vec<Vec<MeshSample>> = vec![Vec::new(); meshes.len()];
     for angle in angles(file, gearbox.train()) {
@@ -60,7 +60,7 @@ pub(super) fn on_coast_flanks(
     let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), operation, |i, mesh, meshing| {
         reduced[i].turned_round(mesh, (meshing, turns[i]))
     });
-    let mut gearbox = made.map_err(failed)?;
+    let mut gearbox = made.map_err(failed)?.joined();
     let one = |angle: f64| {
         unless_cancelled(progress)?;
         gearbox.solve(angle).map_err(failed)

@@ -417,6 +417,19 @@ impl DenseSolver {
         if scale > 0.0 { worst / scale } else { worst }
     }
 
+    /// Takes the solution of some of the rows of a problem that this one's is a part of. It has no factor.
+    pub(crate) fn take_part(&mut self, whole: &Self, rows: Range<usize>) {
+        self.forces.clear();
+        self.forces.extend_from_slice(&whole.forces[rows.clone()]);
+        self.openings.clear();
+        self.openings.extend_from_slice(&whole.openings[rows.clone()]);
+        self.active.clear();
+        self.active.extend(whole.active.iter().filter(|row| rows.contains(row)).map(|row| row - rows.start));
+        (self.factored, self.saved, self.symmetric) = (false, false, whole.symmetric);
+        (self.rotation, self.stiffness) = (0.0, 0.0);
+        (self.iterations, self.residual) = (whole.iterations, whole.residual);
+    }
+
     pub(super) fn finish(&mut self) {
         for &i in &self.active {
             if self.forces[i] > 0.0 {

@@ -25,7 +25,7 @@ const TORQUE: f64 = 1.5e5;
 const TEETH: f64 = 20.0;
 
 /// Pinion, idler and wheel with the wheel at a direction from the idler's axis. Discs: 0 to 2 the gears, 3 input, 4 output.
-fn row(direction: f64, helix_deg: f64, held: bool) -> (Structure, Vec<GearMesh>, Operation) {
+pub fn row(direction: f64, helix_deg: f64, held: bool) -> (Structure, Vec<GearMesh>, Operation) {
     let pairs = [pair([20, 31], helix_deg), pair([31, 23], -helix_deg)];
     let [a, b] = [0, 1].map(|i| pairs[i].centre_distance());
     let far = [a + b * direction.cos(), b * direction.sin(), 0.0];

@@ -11,6 +11,7 @@ mod forced;
 mod idlers;
 mod internal_motion;
 mod involute_mesh;
+mod joined;
 mod mapped_friction;
 mod mapped_pair;
 mod modes_in_motion;

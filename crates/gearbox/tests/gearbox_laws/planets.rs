@@ -31,7 +31,7 @@ const LENGTH: f64 = 60.0;
 
 /// What carries the planets.
 #[derive(Clone, Copy, PartialEq)]
-enum Carried {
+pub enum Carried {
     /// Bearings in the ground.
     Ground,
     /// Bearings in a rigid body whose one bearing has these stiffnesses, N/mm and N mm/rad.
@@ -41,23 +41,23 @@ enum Carried {
 }
 
 #[derive(Clone, Copy)]
-struct Stage {
-    count: usize,
-    helix_deg: f64,
-    carried: Carried,
+pub struct Stage {
+    pub count: usize,
+    pub helix_deg: f64,
+    pub carried: Carried,
     /// How far the seat of planet 1 stands off along the circle, mm.
-    off: f64,
+    pub off: f64,
     /// Radial stiffness of the bearings of sun, and of all others, N/mm.
-    sun: f64,
-    others: f64,
+    pub sun: f64,
+    pub others: f64,
     /// Diameter of the shafts of gears, mm.
-    thick: f64,
+    pub thick: f64,
     /// Planets on balls.
-    rolls: bool,
-    torque: f64,
+    pub rolls: bool,
+    pub torque: f64,
 }
 
-const STAGE: Stage = Stage {
+pub const STAGE: Stage = Stage {
     count: 3,
     helix_deg: 0.0,
     carried: Carried::Ground,
@@ -88,7 +88,7 @@ impl Stage {
     }
 
     /// Shafts: sun, ring, planets, carrier, pins. Discs: sun, ring, planets, input, output.
-    fn parts(self) -> (Structure, Vec<GearMesh>, Operation) {
+    pub fn parts(self) -> (Structure, Vec<GearMesh>, Operation) {
         let at = |n: usize| {
             let (sin, cos) = (TAU * n as f64 / self.count as f64).sin_cos();
             [ARM * cos, ARM * sin]

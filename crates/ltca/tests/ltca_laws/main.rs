@@ -11,6 +11,7 @@ mod given_poses;
 mod gmsh_meshes;
 mod harris_map;
 mod internal_pairs;
+mod joined;
 mod kept_tables;
 mod kinematic;
 mod laws_of_statics;

@@ -63,7 +63,7 @@ impl ToothBlocks {
 }
 
 /// A block with its rows and columns turned from the frames of their teeth by these angles, rad.
-fn turned(block: &Mat<f64>, angles: [f64; 2]) -> Mat<f64> {
+pub(crate) fn turned(block: &Mat<f64>, angles: [f64; 2]) -> Mat<f64> {
     angles.into_iter().fold(block.clone(), |mut block, angle| {
         let (sin, cos) = angle.sin_cos();
         for mut column in block.col_iter_mut() {

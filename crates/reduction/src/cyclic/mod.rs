@@ -14,6 +14,7 @@
 //! to round-off, at the cost of one sector. Nothing is approximated: the degrees of freedom of the cuts are eliminated
 //! like any others.
 
+mod between;
 mod blocks;
 mod chain;
 mod placement;
@@ -31,7 +32,7 @@ use fem::{BoundaryLastFactor, ElementOptions, Material, Wanted, dense, unless_un
 use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
-pub(crate) use blocks::ToothBlocks;
+pub(crate) use blocks::{ToothBlocks, turned};
 use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use sector::Sector;

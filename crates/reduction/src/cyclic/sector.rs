@@ -176,6 +176,24 @@ impl Sector {
         load.iter().flat_map(move |part| (0..3).filter_map(move |axis| row(part, axis)))
     }
 
+    /// P' X: displacements under the loads, the cuts held, by unit loads of the same sector with other loads, mm/N, 3m x 3n.
+    pub(super) fn under(&self, other: &Self) -> Result<Mat<f64>, ReductionError> {
+        let of_kept = self.factor.boundary()[..self.kept].iter().map(|&row| vec![(row, 1.0)]);
+        let of_spread = self.spread.iter().flat_map(|load| {
+            let on =
+                move |axis| self.rows(load).filter(move |part| part.2 == axis).map(|(row, weight, _)| (row, weight));
+            (0..3).map(move |axis| on(axis).collect::<Vec<_>>())
+        });
+        let loads: Vec<Vec<(usize, f64)>> = of_kept.chain(of_spread).collect();
+        let mut rows: Vec<usize> = loads.iter().flatten().map(|part| part.0).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        let [field, _] = other.rows_of_field(&rows)?;
+        let at = |row: usize| rows.partition_point(|&known| known < row);
+        let entry = |i: usize, j: usize| loads[i].iter().map(|&(row, weight)| weight * field[(at(row), j)]).sum();
+        Ok(Mat::from_fn(loads.len(), field.ncols(), entry))
+    }
+
     /// What a field is made of, from loads (3m x k, N) and cuts (2c x k, mm): displacements of kept nodes or loads,
     /// then cuts.
     pub(super) fn basis(&self, f: MatRef<'_, f64>, ends: MatRef<'_, f64>) -> Mat<f64> {

@@ -5,6 +5,7 @@ mod condense;
 mod options;
 mod parts;
 mod recorded;
+mod several_windows;
 mod tooth_windows;
 mod windows;
 

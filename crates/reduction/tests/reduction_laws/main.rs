@@ -6,5 +6,6 @@ mod cyclic;
 mod holes;
 mod modes;
 mod record;
+mod several_windows;
 mod spin;
 mod stress_modes;

@@ -1,6 +1,7 @@
 //! Slice contact of two gears at given poses: forces and their tangent. Theory (38).
 
 mod compliance;
+mod joined;
 mod moved;
 mod near;
 mod pose_bin;
@@ -31,6 +32,7 @@ use crate::{
 };
 
 pub(super) use compliance::{mirror, places};
+pub use joined::{CommonGear, JoinedContacts};
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
 

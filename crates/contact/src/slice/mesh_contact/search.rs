@@ -52,7 +52,7 @@ impl MeshContact {
 
     /// Finds the points of least gap station by station, each from where it was at the last search; those with gaps wider
     /// than `reach` (mm) may be left out.
-    fn search_from_hints(&mut self, poses: &[Pose; 2], reach: f64) {
+    pub(super) fn search_from_hints(&mut self, poses: &[Pose; 2], reach: f64) {
         let Self { set, pairs, hints, nearest, last_pose, .. } = self;
         nearest.clear();
         let Some(slice_set) = set.slices() else { return };

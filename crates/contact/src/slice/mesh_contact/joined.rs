@@ -1,0 +1,197 @@
+//! Contacts of meshes that have gears in common, solved as one: what presses on one flank of a gear moves all others.
+//! Theory (38a).
+
+use faer::MatRef;
+
+use crate::{
+    ContactError, Pose,
+    complementarity::{Balance, DenseProblem, DenseSolver},
+    compliance::{load_columns, opening},
+    nodal::ContactRow,
+    opening_by_motion,
+};
+
+use super::MeshContact;
+
+/// Coordinates of both gears of a mesh.
+const OF_MESH: usize = 12;
+
+/// A gear that two of the joined contacts have in common.
+#[derive(Debug, Clone, Copy)]
+pub struct CommonGear<'a> {
+    /// Numbers of the contacts.
+    pub contacts: [usize; 2],
+    /// Which body of each the gear is: 0 its pinion, 1 its wheel.
+    pub bodies: [usize; 2],
+    /// Displacements (mm) of the boundary coordinates of the first contact's window of the gear under unit forces (N) on
+    /// those of the second one's, each in the frame of its own matrices ([`reduction::GearReducer::compliance_between`]).
+    pub compliance: MatRef<'a, f64>,
+}
+
+/// Contacts that are solved as one.
+///
+/// ```text
+/// g_i = g0_i + sum_j S_ij F_j + delta_i(F_i) >= 0,   F_i >= 0,   F_i g_i = 0       i, j: the slices of all contacts
+/// S between two contacts = sum over the gears that they have in common of A_i C_ij A_j'
+/// ```
+/// C_ij is the compliance between the two windows of a gear, A the rows' supports. Theory (38a).
+#[derive(Debug)]
+pub struct JoinedContacts {
+    /// Contacts of the last evaluation, and rows that there is memory for.
+    count: usize,
+    most: usize,
+    solver: DenseSolver,
+    compliance: Vec<f64>,
+    gaps: Vec<f64>,
+    still: Vec<f64>,
+    /// df/dq of all contacts, 12 coordinates each, row by row.
+    tangent: Vec<f64>,
+}
+
+impl Default for JoinedContacts {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl JoinedContacts {
+    /// Nothing yet: memory grows with the contacts.
+    pub fn new() -> Self {
+        let [compliance, gaps, still, tangent] = Default::default();
+        Self { count: 0, most: 0, solver: DenseSolver::new(0), compliance, gaps, still, tangent }
+    }
+
+    /// Forces of all contacts with the frames of their gears at `poses`, and their tangents: each contact then has its own
+    /// ([`MeshContact::force`]) as after [`MeshContact::evaluate`].
+    ///
+    /// A row may be approached by as much as all contacts overlap together, for a gear moves nowhere more than under its
+    /// loads.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate(
+        &mut self,
+        contacts: &mut [&mut MeshContact],
+        poses: &[[Pose; 2]],
+        common: &[CommonGear<'_>],
+    ) -> Result<(), ContactError> {
+        self.count = contacts.len();
+        let most = contacts.iter().map(|contact| contact.hints.len()).sum();
+        if most > self.most {
+            (self.most, self.solver) = (most, DenseSolver::new(most));
+        }
+        let mut reach = 0.0;
+        for (contact, poses) in contacts.iter_mut().zip(poses) {
+            contact.search_from_hints(poses, f64::INFINITY);
+            reach += contact.deepest().max(0.0);
+        }
+        for (contact, poses) in contacts.iter_mut().zip(poses) {
+            contact.contact.bin = None;
+            contact.rows_within(poses, reach, None);
+        }
+        let first: Vec<usize> =
+            (contacts.iter()).scan(0, |at, contact| Some(std::mem::replace(at, *at + contact.rows().len()))).collect();
+        let n = contacts.iter().map(|contact| contact.rows().len()).sum();
+        let symmetric = contacts.iter().all(|contact| contact.friction.is_none());
+        self.join((&*contacts, poses, common), &first, (n, symmetric));
+        self.gaps.clear();
+        self.gaps.extend(contacts.iter().flat_map(|contact| &contact.gaps));
+        self.still.clear();
+        self.still.resize(n, 0.0);
+        let (owner, contacts_now) = (|row: usize| first.partition_point(|at| *at <= row) - 1, &*contacts);
+        let local = |row: usize, force: f64| {
+            let k = owner(row);
+            contacts_now[k].contact.laws.under(row - first[k], force)
+        };
+        let start = |row: usize| {
+            let k = owner(row);
+            contacts_now[k].last_forces[contacts_now[k].contact.keys[row - first[k]]]
+        };
+        let Self { solver, compliance, gaps, still, .. } = self;
+        let compliance = MatRef::from_column_major_slice(&compliance[..], n, n);
+        let problem =
+            DenseProblem { compliance, symmetric, gaps, levers: still, torque_levers: still, balance: Balance::Held };
+        solver.solve(&problem, local, start)?;
+        for (contact, &at) in contacts.iter_mut().zip(&first) {
+            let rows = at..at + contact.rows().len();
+            contact.solver.take_part(solver, rows);
+            contact.keep_forces();
+            contact.sum_forces();
+        }
+        self.find_tangent(contacts, &first);
+        Ok(())
+    }
+
+    /// df/dq of contact `of` by the coordinates of the gears of contact `by`, N/mm, N, N mm: after an evaluation.
+    pub fn tangent(&self, of: usize, by: usize) -> [[f64; OF_MESH]; OF_MESH] {
+        let n = OF_MESH * self.count;
+        let entry = |p: usize, q: usize| self.tangent[(OF_MESH * of + p) * n + OF_MESH * by + q];
+        std::array::from_fn(|p| std::array::from_fn(|q| entry(p, q)))
+    }
+
+    /// S between the rows of all contacts, column by column.
+    fn join(
+        &mut self,
+        (contacts, poses, common): (&[&mut MeshContact], &[[Pose; 2]], &[CommonGear<'_>]),
+        first: &[usize],
+        (n, symmetric): (usize, bool),
+    ) {
+        let compliance = &mut self.compliance;
+        compliance.clear();
+        compliance.resize(n * n, 0.0);
+        for (contact, &at) in contacts.iter().zip(first) {
+            let m = contact.rows().len();
+            for (j, column) in contact.contact.compliance.chunks_exact(m.max(1)).enumerate() {
+                compliance[(at + j) * n + at..(at + j) * n + at + m].copy_from_slice(column);
+            }
+        }
+        let supported = |(contact, poses): (&&mut MeshContact, &[Pose; 2])| {
+            let rows = contact.rows();
+            contact.set.supported_rows(poses, rows, contact.slices(), &vec![1.0; rows.len()])
+        };
+        let rows: Vec<Vec<ContactRow>> = contacts.iter().zip(poses).map(supported).collect();
+        for gear in common {
+            let [a, b] = gear.contacts;
+            let mut put = |[a, b]: [usize; 2], bodies: [usize; 2], through: MatRef<'_, f64>, both: bool| {
+                for (j, load) in rows[b].iter().enumerate() {
+                    let mut column = vec![0.0; through.nrows()];
+                    load_columns(&load.supports[bodies[1]], |dof, force| {
+                        let moved = through.col(dof);
+                        column.iter_mut().zip(moved.iter()).for_each(|(sum, u)| *sum += force * u);
+                    });
+                    for (i, row) in rows[a].iter().enumerate() {
+                        let moved = opening(&row.supports[bodies[0]], &column);
+                        compliance[(first[b] + j) * n + first[a] + i] += moved;
+                        if both {
+                            compliance[(first[a] + i) * n + first[b] + j] += moved;
+                        }
+                    }
+                }
+            };
+            put([a, b], gear.bodies, gear.compliance, symmetric);
+            if !symmetric {
+                put([b, a], [gear.bodies[1], gear.bodies[0]], gear.compliance.transpose(), false);
+            }
+        }
+    }
+
+    fn find_tangent(&mut self, contacts: &mut [&mut MeshContact], first: &[usize]) {
+        let n = OF_MESH * self.count;
+        self.tangent.resize(n * n, 0.0);
+        let now = &*contacts;
+        let fill = |i: usize, openings: &mut [f64], loads: &mut [f64]| {
+            let k = first.partition_point(|at| *at <= i) - 1;
+            let contact = &now[k].contact;
+            let centres = contact.at.unwrap_or([Pose::identity(); 2]).map(|pose| pose.translation.vector);
+            let row = &contact.rows[i - first[k]];
+            for (all, direction) in [(openings, row.normal), (loads, row.traction)] {
+                all.fill(0.0);
+                all[OF_MESH * k..][..OF_MESH].copy_from_slice(&opening_by_motion(row, &direction, &centres));
+            }
+        };
+        self.solver.tangent_of(&mut vec![0.0; 2 * n], fill, &mut self.tangent);
+        for (k, contact) in contacts.iter_mut().enumerate() {
+            contact.force.tangent = self.tangent(k, k);
+        }
+    }
+}
