@@ -16,8 +16,8 @@ use crate::{remark, results::DOUBTFUL_PERCENT};
 /// ```
 /// sigma_max: largest first principal stress of the fillet, at its bending peak; sigma_min: smallest third principal stress at
 /// that place of the fillet. Loads on one flank alone leave R at -0.2 to -0.5, because the tooth beside presses the fillet.
-/// Teeth of idlers and planets are loaded on both flanks in turn: R is near -1.2 (ISO 6336-3, annex B). Each mesh is alone on
-/// the gear's body. Theory (22e).
+/// Teeth of idlers and planets are loaded on both flanks in turn: R is near -1.2 (ISO 6336-3, annex B). The stress
+/// of a mesh is that of its own forces. Theory (22e).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootBending {
     /// Side of the teeth.

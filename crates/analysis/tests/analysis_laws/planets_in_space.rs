@@ -14,6 +14,9 @@ const SUN: f64 = 2.0;
 const THIN: &str = "thickness_allowance_mm = 0.0005\n";
 /// Most that torques may be off their ratios.
 const EXACT: f64 = 1e-8;
+/// Balance of a body over its largest force, or over a thousandth of the largest of all for a planet that idles. Places have a
+/// last bit of 1e-14 mm, which a mesh turns to some 1e-9 N, and a planet under 2 N m on the sun may carry some 1e-2 N.
+const BALANCED: f64 = 1e-7;
 
 /// The stage on a carrier of its own; the planets turn in it. `roles`: input, output, fixed member.
 fn with_carrier(stage: Stage, sun: f64, [input, output, fixed]: [&str; 3]) -> GearboxResult {
@@ -63,7 +66,7 @@ fn of_member(name: &str, [sun, ring, carrier]: [f64; 3]) -> f64 {
 }
 
 /// Whichever member is input, output or fixed: at every angle T_sun : T_ring : T_carrier = 1 : z_r/z_s : -(1 + z_r/z_s), the
-/// input brings the power that the output takes, n_s z_s + n_r z_r = n_c (z_s + z_r), and every body is in balance, to 1e-8.
+/// input brings the power that the output takes, n_s z_s + n_r z_r = n_c (z_s + z_r), all to 1e-8, and every body is in balance.
 #[test]
 fn any_member_is_input_output_or_fixed() {
     let u = f64::from(-STAGE.teeth[2]) / f64::from(STAGE.teeth[0]);
@@ -106,7 +109,7 @@ fn any_member_is_input_output_or_fixed() {
         }
         let [_, balance] = found.certificate;
         println!("{roles:?}: torques off by {off:.1e}, bodies by {balance:.1e}");
-        assert!(off < EXACT && balance < EXACT, "{roles:?}: {off:e}, {balance:e}");
+        assert!(off < EXACT && balance < BALANCED, "{roles:?}: {off:e}, {balance:e}");
         let even = with_carrier(STAGE, SUN, roles).outputs[0];
         assert!(even.mean > 0.0 && even.peak_to_peak > 0.0, "{roles:?}: without a pin error {even:?}");
         // Of a pin that is off, the lag without load is that of the gap on the side that carries; a heavier load lags more.
