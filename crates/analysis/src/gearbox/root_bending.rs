@@ -17,7 +17,7 @@ use crate::{remark, results::DOUBTFUL_PERCENT};
 /// sigma_max is the largest first principal stress of the fillet, at its bending peak; sigma_min the smallest third
 /// principal stress at the same point. Loads on only one flank give R of -0.2 to -0.5, because the load on the
 /// neighbouring tooth compresses the fillet. Teeth of idlers and planets are loaded on both flanks alternately: R is
-/// near -1.2 (ISO 6336-3, annex B). Each mesh is treated as if it were alone on the gear's body. Theory (22e).
+/// near -1.2 (ISO 6336-3, annex B). The stress of a mesh is that of its own forces. Theory (22e).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootBending {
     /// Side of the teeth.
