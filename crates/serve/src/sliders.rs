@@ -148,7 +148,7 @@ fn misalignment(scene: &Scene, written: &Written) -> Vec<Slider> {
     let names = if by_axes {
         [("deviation_um", "deviation of axes"), ("inclination_um", "inclination of axes")]
     } else {
-        [("in_plane_of_action_um", "in the plane of action"), ("across_plane_of_action_um", "across it")]
+        [("in_plane_of_action_um", "in the plane of action"), ("across_plane_of_action_um", "perpendicular to it")]
     };
     let step = (most / NOTCHES).clamp(0.1, 1.0);
     let of = |(name, label): (&str, &'static str)| {

@@ -179,7 +179,7 @@ impl OptimiseArgs {
                 ControlFlow::Continue(())
             })
         })?;
-        let summary: Optimised = phases.run("tell", || summarise(&models, &optimum))?;
+        let summary: Optimised = phases.run("results", || summarise(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
         let again = self.again();
         let of = OptimumResult { optimum: &optimum, summary: &summary, scene: &scene, again: &again };

@@ -88,7 +88,7 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
             "{folder}"
         );
     }
-    for text in ["three angles", "20 deg", "peak_to_peak_ste_um", "results: o"] {
+    for text in ["three angles", "20 deg", "peak to peak STE [µm]", "results: o"] {
         assert!(run.stdout.contains(text), "{text} is not in\n{}", run.stdout);
     }
     // An earlier study is replaced; a folder with somebody's file among the cases is not.
@@ -142,7 +142,7 @@ fn a_case_without_a_solution_stands_alone() {
     // Of a case that is drawn by itself the figure says so.
     let drawn = iso_cases().file("s.toml", at(ISO_STUDY.to_owned(), "20 deg"));
     assert_eq!(drawn.ale_gear(["run", "s.toml", "--out", "o"]).code, Some(0));
-    assert!(drawn.read("o/report.html").contains("20 deg has no result: ste_um is not drawn."));
+    assert!(drawn.read("o/report.html").contains("20 deg has no result: STE is not drawn."));
     let none = ["10 deg", "15 deg", "20 deg"].iter().fold(ISO_STUDY.to_owned(), |study, label| at(study, label));
     let none = iso_cases().file("s.toml", none);
     let run = none.ale_gear(["run", "s.toml", "--out", "o"]);

@@ -447,7 +447,7 @@ fn a_harris_map_is_one_command() {
     assert_eq!((of("4").len(), of("4")[0].0, of("8")[13].0), (14, 15.0, 210.0));
     assert!(flattest("4") < flattest("8"), "{:?} {:?}", of("4"), of("8"));
     let page = scratch.read("o/report.html");
-    assert!(page.contains("tip relief [µm] 4") && page.contains("tip relief [µm] 8"), "a curve for each relief");
+    assert!(page.contains("tip relief 4 µm") && page.contains("tip relief 8 µm"), "a curve for each relief");
     assert!(page.contains("\"mark\":{\"at\":[") && page.contains("least: "), "a map with its optimum");
     assert!(
         page.contains("--harris --vary &#x27;") && page.contains("analysis.positions_per_cycle=6"),

@@ -62,6 +62,10 @@
   // A page may want its charts lower.
   const sizeOf = place => ({ width: Math.max(place.clientWidth, 240), height: parseInt(getComputedStyle(place).getPropertyValue("--chart-height")) || HEIGHT });
 
+  // Whole numbers (evaluations, pairs, orders) have whole marks.
+  const WHOLE = [...Array(8).keys()].flatMap(k => [1, 2, 5].map(v => v * 10 ** k));
+  const whole = values => values.every(v => v === null || v === undefined || Number.isInteger(v));
+
   const idle = u => u.root.classList.toggle("idle", u.legend?.idx === null || u.legend?.idx === undefined);
 
   const lines = (plot, place) => {
@@ -78,7 +82,8 @@
       value: (u, v) => short(v),
     });
     return new uPlot({
-      ...sizeOf(place), series: [{ label: plot.x, value: (u, v) => short(v, 7) }, ...series], axes: axes(plot.x, plot.y),
+      ...sizeOf(place), series: [{ label: plot.x, value: (u, v) => short(v, 7) }, ...series],
+      axes: axes(plot.x, plot.y).map((axis, k) => whole(k ? plot.data.slice(1).flat() : plot.data[0]) ? { ...axis, incrs: WHOLE } : axis),
       scales: { x: { time: false, range: bars ? (u, low, high) => [low - 0.6, high + 0.6] : undefined }, y: { range: room(plot.zero) } },
       cursor: { sync: { key: plot.x }, drag: { x: true, y: false }, focus: { prox: 24 } },
       // Without a cursor there is no value to be read.
@@ -118,7 +123,7 @@
 
   // Curves with an abscissa each, drawn as a line or as dots.
   const curves = (plot, place, words) => {
-    const dots = plot.kind === "dots", FEW = 100;
+    const dots = plot.kind === "dots", [FEW, MANY] = [100, 2000];
     const pairs = plot.names.map((name, k) => ({ name, colour: plot.colours[k], xs: plot.data[2 * k], ys: plot.data[2 * k + 1] }));
     const ends = values => {
       const finite = values.filter(v => v !== null);
@@ -126,7 +131,7 @@
       const margin = high > low ? 0.05 * (high - low) : 0.05 * Math.abs(high) || 1;
       return [low - margin, high + margin];
     };
-    words.dataset.hint = words.textContent = plot.x + ", " + plot.y;
+    words.dataset.hint = words.textContent = "Point at the chart to read it.";
     if (pairs.length > 1) {
       const key = document.createElement("p");
       key.className = "small";
@@ -139,7 +144,7 @@
     }
     const mark = (ctx, at, size) => { ctx.beginPath(); ctx.arc(at[0], at[1], size, 0, 2 * Math.PI); ctx.fill(); };
     const draw = (u, ctx) => pairs.forEach(({ colour, xs, ys }) => {
-      const size = (xs.length <= FEW ? 2.5 : 1) * devicePixelRatio;
+      const size = (xs.length <= FEW ? 2.5 : xs.length <= MANY ? 1.8 : 1) * devicePixelRatio;
       ctx.strokeStyle = ctx.fillStyle = shade(colour);
       ctx.lineWidth = 1.2 * devicePixelRatio;
       const line = new Path2D();
@@ -190,7 +195,9 @@
       if (pieces.length) write(value, x(pieces[middle]) + 3 * dense, y(pieces[middle + 1]) - 3 * dense);
     }
     if (field.mark) {
-      const [left, top] = [x(field.mark.at[0]), y(field.mark.at[1])];
+      // At a corner the mark and its text stay inside of the map; zoomed past it, they go with it.
+      const { bbox } = u, inside = (at, from, size) => at < from - dense || at > from + size + dense ? at : Math.min(Math.max(at, from + 8 * dense), from + size - 8 * dense);
+      const [left, top] = [inside(x(field.mark.at[0]), bbox.left, bbox.width), inside(y(field.mark.at[1]), bbox.top, bbox.height)];
       ctx.beginPath();
       ctx.arc(left, top, 6 * dense, 0, 2 * Math.PI);
       ctx.fillStyle = "#d55e00";

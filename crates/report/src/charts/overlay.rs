@@ -103,13 +103,15 @@ impl Overlay {
             }
         }
         if let Some(Mark { at, text: said }) = &self.mark {
+            // At a corner the mark and its text stay inside of the map.
+            let [left, top, width, height] = room.place.map(f64::from);
             let (x, y) = room.at(at[0], at[1]);
+            let (x, y) = (x.clamp(left + 8.0, left + width - 8.0), y.clamp(top + 8.0, top + height - 8.0));
             let _ = write!(
                 svg,
                 "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"#d55e00\" stroke=\"#fff\" stroke-width=\"2\"/>"
             );
             // On the side where there is room.
-            let [left, _, width, _] = room.place.map(f64::from);
             let right = x > left + 0.7 * width;
             let shift = if right { -10.0 - 7.0 * said.chars().count() as f64 } else { 10.0 };
             svg += &text(x + shift, y + 5.0, said);

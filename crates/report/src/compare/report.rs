@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use analysis::remark;
-use answer::Answer;
+use answer::{Answer, label_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -15,6 +15,7 @@ use crate::{
     answer_files::Object,
     charts::{Curve, line_chart, line_picture},
     page::{Cell, Grid, Page, Part},
+    plan_files::plain,
 };
 
 /// A chart of one quantity.
@@ -70,8 +71,9 @@ pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
         let count = drawn.entry(&o.table).or_default();
         *count += 1;
         if *count <= MOST_CHARTS {
-            let title = format!("{}, {}", o.name.replace('_', " "), o.table.replace('_', " "));
-            charts.extend(chart(o, format!("{}_{}", o.table, o.name.replace('.', "_")), &title, &o.name));
+            let label = label_of(&o.name);
+            let title = format!("{}, {}", plain(&label), o.table.replace('_', " "));
+            charts.extend(chart(o, format!("{}_{}", o.table, o.name.replace('.', "_")), &title, &label));
         }
     }
     charts
@@ -89,13 +91,25 @@ fn chart(overlay: &Overlay, name: String, title: &str, axis: &str) -> Option<Com
         "mesh_phase" => "mesh phase",
         "time_s" => "time [s]",
         SPEED => "speed of the driver [1/min]",
-        other => other,
+        other => &label_of(other),
     };
-    let curve = |t: &Trace| Curve { label: t.label.clone(), points: t.points.clone() };
+    let common = common_folder(&overlay.traces);
+    let curve = |t: &Trace| Curve { label: t.label[common..].to_owned(), points: t.points.clone() };
     let curves: Vec<Curve> = overlay.traces.iter().map(curve).collect();
     let figure = line_chart(title, over, axis, &curves, false)?;
     let svg = line_picture(title, over, axis, &curves)?;
     Some(CompareChart { name, figure, svg })
+}
+
+/// Length of the folder that all labels begin with: legends go without it. 0 if nothing would be left of a label.
+fn common_folder(traces: &[Trace]) -> usize {
+    let Some((first, rest)) = traces.split_first() else { return 0 };
+    let ends = first.label.match_indices('/').map(|(at, _)| at + 1).rev();
+    let is_common = |&end: &usize| {
+        let folder = &first.label[..end];
+        end < first.label.len() && rest.iter().all(|t| t.label.len() > end && t.label.starts_with(folder))
+    };
+    if rest.is_empty() { 0 } else { ends.into_iter().find(is_common).unwrap_or(0) }
 }
 
 /// A curve about its own mean over the points that are drawn.
@@ -222,6 +236,18 @@ mod tests {
             over: over.into(),
             traces: vec![trace("a", 0.0), trace("b", 10.0)],
         }
+    }
+
+    /// Legends name folders without the path that they have in common.
+    #[test]
+    fn legends_go_without_the_common_folder() {
+        let length = |labels: &[&str]| {
+            let traces: Vec<Trace> = labels.iter().map(|l| Trace { label: (*l).into(), points: Vec::new() }).collect();
+            common_folder(&traces)
+        };
+        assert_eq!(length(&["out/a", "out/b"]), 4);
+        assert_eq!(length(&["/x/out/a (up)", "/x/out/a (down)", "/x/b"]), 3);
+        assert_eq!([length(&["out/a", "b"]), length(&["out/", "out/b"]), length(&["out/a"])], [0, 0, 0]);
     }
 
     /// Two loads with the same variation lie on each other, whatever their means.

@@ -14,7 +14,7 @@ use crate::{
     charts::{Curve, LineChart, embedded},
     contact_files::pattern_figure,
     how_exact::how_exact,
-    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, escaped, render},
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, counted, escaped, render},
     pair_files::rating,
 };
 
@@ -31,11 +31,12 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     let mut page = Page::of(
         answer,
         format!(
-            "gearbox: {} shafts, {} meshes, {} bearings, {} positions",
-            file.shafts.len(),
+            "gearbox: {}, {} {}, {}, {}",
+            counted(file.shafts.len(), "shaft"),
             file.meshes.len(),
-            file.bearings.len(),
-            result.positions.len()
+            if file.meshes.len() == 1 { "mesh" } else { "meshes" },
+            counted(file.bearings.len(), "bearing"),
+            counted(result.positions.len(), "position")
         ),
     );
     page.push(Part::more().with(Content::Html(render("gearbox_view.html", view)?)));
@@ -165,7 +166,7 @@ fn shafts(file: &Gearbox, result: &GearboxResult) -> Part {
             Cell::number(1e6 * lines().map(twist).fold(0.0, f64::max), 1),
         ]
     });
-    let head = ["shaft", "turns a turn of the input", "largest bending um", "largest twist urad"];
+    let head = ["shaft", "rotations per input rotation", "largest bending um", "largest twist urad"];
     Part::new("Shafts").grid(Grid::new(head).rows(rows))
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use analysis::remark::{self, Remark};
-use answer::{Answer, Cost, Table, label_of, shown_units};
+use answer::{Answer, Cost, Table, label_of};
 use design::Stop;
 use plan::{NumberOptimum, goal_of, goal_unit};
 use scene::{
@@ -14,7 +14,11 @@ use scene::{
 use serde::Serialize;
 use serde_json::json;
 
-use super::{HELD, page::parameter_part, tables};
+use super::{
+    HELD,
+    page::{grind, parameter_part},
+    tables,
+};
 use crate::{
     ReportError, Written,
     charts::{Curve, line_chart},
@@ -194,30 +198,6 @@ pub fn write_number_optimum(
     write_result(answer, &page, false, results)
 }
 
-/// Modifications of the optimum in words, gear by gear: what the workshop is told. Nothing where none is searched.
-fn grind(of: &NumberOptimumResult<'_>) -> Part {
-    let NumberOptimumResult { plan, optimum, .. } = *of;
-    let machine = plan.machine(&optimum.values).ok();
-    let rows = plan.parameters.iter().zip(&optimum.values).filter_map(|(own, value)| {
-        let (place, name) = own.name().split_once(".modification.")?;
-        let unit = answer::unit_of(name);
-        let words = name.rsplit_once('_').filter(|_| !unit.is_empty()).map_or(name, |(words, _)| words);
-        Some(vec![
-            Cell::text(gear_name(machine.as_ref(), place).unwrap_or_else(|| place.to_owned())),
-            Cell::text(words.replace(['_', '.'], " ")),
-            Cell::number(own.start, 3),
-            Cell::number(*value, 3),
-            Cell::text(shown_units(&unit)),
-        ])
-    });
-    let part = Part::new("Grind this").closing();
-    let part = part.grid(Grid::new(["gear", "modification", "before", "grind", ""]).rows(rows));
-    if part.contents.is_empty() {
-        return part;
-    }
-    part.note("A lead slope above 0 removes more at +z than at -z. Rounded to what a machine can be set to.")
-}
-
 /// Name of the gear that a key such as `mesh.0.scene.pinion` stands for; `None` of a pair, whose gears have no names.
 fn gear_name(machine: Option<&Machine>, place: &str) -> Option<String> {
     let Machine::Gearbox(file) = machine? else { return None };
@@ -227,11 +207,6 @@ fn gear_name(machine: Option<&Machine>, place: &str) -> Option<String> {
     Some(file.gears.get(gear)?.name.clone())
 }
 
-/// A number with four decimals, one of 100 and more with one.
-fn shown(value: f64) -> Cell {
-    Cell::number(value, if value.abs() < 100.0 { 4 } else { 1 })
-}
-
 fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
@@ -239,37 +214,39 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let unit = goal_unit(plan);
     page.push(Part::new("Before and after").closing().lines([
         Line::text(
-            if plan.goals.len() > 1 { "goal: mean of the absolute values" } else { "goal" },
-            names(of).join(", "),
+            if plan.goals.len() > 1 { "goal: mean of the magnitudes" } else { "goal" },
+            names(of).iter().map(|name| label_of(name)).collect::<Vec<_>>().join(", "),
             "",
         ),
         Line::number("goal at the start", start, 4, &unit),
         Line::number(format!("optimum, {}", counted(optimum.found.steps.len(), "evaluation")), best, 4, &unit),
     ]));
-    page.push(grind(of));
+    let machine = plan.machine(&optimum.values).ok();
+    let values = plan.parameters.iter().zip(&optimum.values).map(|(own, value)| (own.name(), own.start, *value));
+    page.push(grind(values, |place| gear_name(machine.as_ref(), place)));
     let several = plan.loads.len() > 1;
     let outputs = plan.outputs();
     let rows = plan.loads.iter().enumerate().flat_map(|(i, load)| {
         let row = |(k, output): (usize, &PlanOutput)| {
             let limit = k.checked_sub(plan.goals.len()).map(|k| plan.limits[k].most);
             let mut row = vec![
-                Cell::text(output.name()),
-                shown(optimum.before[i][k]),
-                shown(optimum.after[i][k]),
-                limit.map_or_else(|| Cell::count(""), shown),
+                Cell::text(label_of(&output.name())),
+                Cell::significant(optimum.before[i][k]),
+                Cell::significant(optimum.after[i][k]),
+                limit.map_or_else(|| Cell::count(""), Cell::significant),
             ];
             if several {
-                row.insert(1, Cell::number(load.torque_nm, 1));
+                row.insert(1, Cell::significant(load.torque_nm));
             }
             row
         };
         outputs.iter().enumerate().map(row).collect::<Vec<_>>()
     });
-    let mut head = vec!["number", "start", "optimum", "limit"];
+    let mut head = vec!["quantity", "start", "optimum", "limit"];
     if several {
-        head.insert(1, "torque N m");
+        head.insert(1, "torque [N m]");
     }
-    page.push(Part::new("Numbers").closing().grid(Grid::new(head).rows(rows)));
+    page.push(Part::new("Results").closing().grid(Grid::new(head).rows(rows)));
     let found = plan.parameters.iter().zip(&optimum.found.values).zip(&optimum.values);
     page.push(parameter_part(found.map(|((parameter, found), value)| (parameter, *found, *value))));
     let steps = optimum.found.steps.iter().enumerate();
@@ -282,7 +259,7 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let curve = [Curve { label: "goal".to_owned(), points: goals }];
     page.push(Part::more().figures(line_chart("The search", "evaluation", &goal, &curve, false)));
     let run = format!("ale-gear run {} {} --out DIR", plan.scene_file().display(), of.settings().join(" "));
-    page.push(Part::new("The optimum by itself").with(Content::Plain(run)));
+    page.push(Part::new("Run the optimum").with(Content::Plain(run)));
     page.push(cost_part(&answer.cost));
     page.push(again(of.again));
     page

@@ -1,13 +1,14 @@
 //! `report.html` and closing table of an optimisation.
 
 use analysis::optimum::{HarrisPoint, Optimised};
-use answer::Answer;
+use answer::{Answer, label_of, shown_units, unit_of};
 use scene::optimum::DesignParameter;
 
 use super::{Goals, OptimumResult};
 use crate::{
     charts::{Curve, line_chart},
     page::{Cell, Grid, Line, Page, Part, again, cost_part, counted},
+    plan_files::plain,
 };
 
 pub(super) fn page(of: &OptimumResult<'_>, answer: &Answer) -> Page {
@@ -15,6 +16,8 @@ pub(super) fn page(of: &OptimumResult<'_>, answer: &Answer) -> Page {
     let plan = &optimum.plan;
     let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
     page.push(goal(of));
+    let values = plan.parameters.iter().zip(&optimum.values);
+    page.push(grind(values.map(|(own, value)| (own.name(), own.start, *value)), |_| None));
     page.push(parameters(of));
     page.push(torques(summary));
     page.push(Part::more().figures(charts(of)));
@@ -36,7 +39,7 @@ fn goal(of: &OptimumResult<'_>) -> Part {
             4,
             "um",
         ),
-        Line::number("with values that a machine can be set to", goals.goal_optimum_um, 4, "um"),
+        Line::number("rounded to machine settings", goals.goal_optimum_um, 4, "um"),
     ])
 }
 
@@ -49,17 +52,48 @@ fn parameters(of: &OptimumResult<'_>) -> Part {
 pub(super) fn parameter_part<'a>(all: impl Iterator<Item = (&'a DesignParameter, f64, f64)>) -> Part {
     let rows = all.map(|(parameter, found, value)| {
         vec![
-            Cell::text(parameter.name()),
-            Cell::number(parameter.bounds[0], 3),
-            Cell::number(parameter.bounds[1], 3),
-            Cell::number(parameter.start, 3),
-            Cell::number(found, 3),
-            Cell::number(value, 3),
+            Cell::text(label_of(parameter.name())),
+            Cell::significant(parameter.bounds[0]),
+            Cell::significant(parameter.bounds[1]),
+            Cell::significant(parameter.start),
+            Cell::significant(found),
+            Cell::significant(value),
             Cell::text(at_bound(parameter, value)),
         ]
     });
-    let head = ["parameter", "lower bound", "upper bound", "start", "found", "set to", ""];
+    let head = ["parameter", "lower bound", "upper bound", "start", "found", "rounded", ""];
     Part::new("Parameters").closing().grid(Grid::new(head).rows(rows))
+}
+
+/// Modifications of the optimum, gear by gear, for the workshop; empty if no parameter is one. `parameters`: key, value
+/// at the start, value of the optimum; `gear`: name of the gear with keys of a prefix, `None` for its place in the pair.
+pub(super) fn grind<'a>(
+    parameters: impl Iterator<Item = (&'a str, f64, f64)>,
+    gear: impl Fn(&str) -> Option<String>,
+) -> Part {
+    let rows = parameters.filter_map(|(key, before, value)| {
+        let (place, name) = key.split_once(".modification.")?;
+        let (flanks, name) = match name.split_once('.') {
+            Some(("drive", name)) => ("driving", name),
+            Some(("coast", name)) => ("coast", name),
+            _ => ("both", name),
+        };
+        let label = label_of(name);
+        Some(vec![
+            Cell::text(gear(place).unwrap_or_else(|| place.replace('.', " "))),
+            Cell::text(flanks),
+            Cell::text(plain(&label)),
+            Cell::significant(before),
+            Cell::significant(value),
+            Cell::text(shown_units(&unit_of(name))),
+        ])
+    });
+    let head = ["gear", "flanks", "modification", "before", "grind", ""];
+    let part = Part::new("Grind this").closing().grid(Grid::new(head).rows(rows));
+    if part.contents.is_empty() {
+        return part;
+    }
+    part.note("Values are rounded to machine settings. A positive lead slope removes more material at +z than at -z.")
 }
 
 /// Which bound a value lies on.
@@ -76,17 +110,17 @@ fn at_bound(parameter: &DesignParameter, value: f64) -> &'static str {
 fn torques(summary: &Optimised) -> Part {
     let rows = summary.torques.iter().map(|t| {
         vec![
-            Cell::number(t.torque_nm, 1),
-            Cell::number(t.peak_to_peak_before_um, 4),
-            Cell::number(t.peak_to_peak_after_um, 4),
-            Cell::number(t.max_pressure_before_mpa, 1),
-            Cell::number(t.max_pressure_after_mpa, 1),
+            Cell::significant(t.torque_nm),
+            Cell::significant(t.peak_to_peak_before_um),
+            Cell::significant(t.peak_to_peak_after_um),
+            Cell::significant(t.max_pressure_before_mpa),
+            Cell::significant(t.max_pressure_after_mpa),
         ]
     });
-    let head = ["torque N m", "p-p STE um", "optimum um", "largest MPa", "optimum MPa"];
-    Part::new("Torques that count").closing().grid(Grid::new(head).rows(rows)).note(
-        "Peak to peak of the static transmission error and largest contact pressure at the start and of the optimum, as \
-         the drawing says and without deviations.",
+    let head = ["torque [N m]", "STE at start [um]", "optimum [um]", "pressure at start [MPa]", "optimum [MPa]"];
+    Part::new("Results by torque").closing().grid(Grid::new(head).rows(rows)).note(
+        "Peak to peak of the static transmission error (STE) and largest contact pressure, for the nominal design without \
+         deviations.",
     )
 }
 
@@ -110,8 +144,14 @@ fn charts(of: &OptimumResult<'_>) -> Vec<String> {
     let front = optimum.front.iter().map(|p| (p.max_pressure_mpa, p.goal_um)).collect();
     let front = [Curve { label: "optima".to_owned(), points: front }];
     let last = [
-        line_chart("Over the torque (Harris map)", "torque [N m]", "peak-to-peak STE [um]", &over_torque, true),
-        line_chart("What a lower pressure costs", "largest pressure [MPa]", "goal [um]", &front, true),
+        line_chart(
+            "Transmission error over torque (Harris map)",
+            "torque [N m]",
+            "peak-to-peak STE [um]",
+            &over_torque,
+            true,
+        ),
+        line_chart("Goal against a lower pressure limit", "largest pressure [MPa]", "goal [um]", &front, true),
     ];
     over_phase.chain(last.into_iter().flatten()).collect()
 }
@@ -119,14 +159,14 @@ fn charts(of: &OptimumResult<'_>) -> Vec<String> {
 fn influences(summary: &Optimised) -> Part {
     let rows = summary.influences.iter().map(|i| {
         vec![
-            Cell::text(&i.key),
-            Cell::number(i.step, 3),
-            Cell::number(i.goal_change_less_um, 4),
-            Cell::number(i.goal_change_more_um, 4),
+            Cell::text(label_of(&i.key)),
+            Cell::significant(i.step),
+            Cell::significant(i.goal_change_less_um),
+            Cell::significant(i.goal_change_more_um),
         ]
     });
-    let head = ["parameter", "step", "goal, step less um", "goal, step more um"];
-    Part::new("What a step of the machine changes")
+    let head = ["parameter", "step", "goal change, step down [um]", "step up [um]"];
+    Part::new("Sensitivity to machine settings")
         .grid(Grid::new(head).rows(rows))
-        .note("Changes of the goal by a step are of first order, from the derivatives at the optimum.")
+        .note("First-order change of the goal by one step of the machine, from the derivatives at the optimum.")
 }

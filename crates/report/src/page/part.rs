@@ -135,6 +135,16 @@ impl Cell {
         Self { text: shown(value.into(), decimals), is_number: true, ..Self::default() }
     }
 
+    /// A number with four significant digits, whole numbers as they are, `-` when there is none.
+    pub fn significant(value: impl Into<Option<f64>>) -> Self {
+        let text = |v: f64| match v.round() {
+            whole if (v - whole).abs() <= 1e-9 * v.abs() => format!("{whole:.0}"),
+            _ => fixed(v, (3.0 - v.abs().log10().floor()).clamp(0.0, 8.0) as usize),
+        };
+        let text = value.into().filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), text);
+        Self { text, is_number: true, ..Self::default() }
+    }
+
     /// A small number as power of ten, `-` when there is none.
     pub fn science(value: impl Into<Option<f64>>) -> Self {
         Self { text: science(value.into()), is_number: true, ..Self::default() }
@@ -310,7 +320,21 @@ pub fn cost_part(cost: &Cost) -> Part {
     Part::new("Cost").grid(Grid::new(["phase", "wall s", "peak MB"]).rows(rows)).note(note)
 }
 
-/// The command that makes a result again.
+/// The command that reproduces a result.
 pub fn again(command: &str) -> Part {
-    Part::new("How to make it again").with(Content::Plain(command.to_owned()))
+    Part::new("Command").with(Content::Plain(command.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four digits where a value has them, none where it is whole.
+    #[test]
+    fn numbers_have_four_significant_digits() {
+        let text = |v: f64| Cell::significant(v).text;
+        let shown = [-7.0, 0.0, 112.5, 0.150_94, 1105.06, -0.064_051, 13_750.0, f64::NAN].map(text);
+        assert_eq!(shown, ["-7", "0", "112.5", "0.1509", "1105", "-0.06405", "13750", "-"]);
+        assert_eq!(text(1e-7), "1.000e-7");
+    }
 }

@@ -17,7 +17,7 @@ use crate::{
     charts::{TransverseSection, embedded},
     how_exact::how_exact,
     page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
-    tables::{GeometryBlock, fixed, geometry_blocks, model_name, torque},
+    tables::{GeometryBlock, fixed, geometry_blocks, given, model_name, torque},
 };
 use export::view::View;
 
@@ -183,7 +183,7 @@ fn glance(scene: &Scene, facts: &RunInfo) -> Vec<[String; 2]> {
         ["face width".into(), widths(scene)],
         ["centre distance".into(), format!("{:.3} mm", facts.geometry.centre_distance_mm)],
         ["contact ratio".into(), format!("{:.3}", facts.geometry.eps_gamma)],
-        [format!("torque on the {driven}"), format!("{} N m", scene.operation.torque_nm)],
+        [format!("torque on the {driven}"), format!("{} N m", given(scene.operation.torque_nm))],
         [format!("speed of the {driver}"), format!("{} 1/min", speeds(scene))],
     ];
     if let Some((slices, chosen)) = facts.resolution.as_ref().and_then(|r| Some((r.slices?, r.slices_chosen))) {

@@ -12,6 +12,7 @@ use crate::{
     Cost, ReportError, Written,
     charts::{Curve, dot_chart, dot_picture, line_chart},
     page::Line,
+    plan_files::plain,
     write_result,
 };
 use store::folder::ResultDirectory;
@@ -54,7 +55,7 @@ pub fn write_key_sweep_result(
     let h = &SweepHeadline { again: again.map(str::to_owned), ..h.clone() };
     let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let shown = Shown {
-        subtitle: format!(", motion over {}", h.key),
+        subtitle: format!(", motion over {}", plain(&label_of(&h.key))),
         key: vec![
             [label_of(&h.key), format!("{} .. {}", h.range[0], h.range[1])],
             ["sections of one point".to_owned(), format!("{} of {}", h.period_one, h.points)],
@@ -71,13 +72,14 @@ pub fn write_key_sweep_result(
 
 /// Bifurcation diagram first, then what goes with it.
 fn bifurcation_charts(key: &str, of: &str, points: &[SweepPoint]) -> Vec<String> {
+    let quantity = plain(of);
     let exponent = by_way(points, |p| p.lyapunov.iter().map(|l| l.exponent).collect());
     [
         dot_chart(BIFURCATION, key, of, &by_way(points, |p| p.points.clone())),
-        line_chart("Peak to peak", key, of, &by_way(points, |p| vec![p.peak_to_peak()]), true),
+        line_chart(&format!("Peak to peak of {quantity}"), key, of, &by_way(points, |p| vec![p.peak_to_peak()]), true),
         line_chart("Largest Lyapunov exponent: above zero in chaos", key, "exponent [1/s]", &exponent, true),
         line_chart("Smallest normal force", key, "force [N]", &by_way(points, |p| vec![p.normal_force_n[0]]), true),
-        line_chart("Mean", key, of, &by_way(points, |p| vec![p.mean]), false),
+        line_chart(&format!("Mean of {quantity}"), key, of, &by_way(points, |p| vec![p.mean]), false),
     ]
     .into_iter()
     .flatten()
@@ -97,11 +99,14 @@ fn listed(mut values: Vec<f64>) -> String {
 }
 
 fn lines(s: &SweepHeadline) -> Vec<Line> {
-    let mut all =
-        vec![Line::text(&s.key, format_args!("{} .. {}", s.range[0], s.range[1]), format!("{} values", s.values))];
+    let mut all = vec![Line::text(
+        label_of(&s.key),
+        format_args!("{} .. {}", s.range[0], s.range[1]),
+        format!("{} values", s.values),
+    )];
     all.extend(s.largest.iter().map(|p| {
         let way = WAYS.iter().find(|(way, _)| *way == p.way).map_or("", |(_, name)| name);
-        let unit = format!("({}) at {}", s.section_of, p.value);
+        let unit = format!("({}) at {}", label_of(&s.section_of), p.value);
         Line::number(format!("largest peak to peak, {way}"), p.peak_to_peak(), 4, unit)
     }));
     all.push(Line::text("sections of one point", format_args!("{} of {}", s.period_one, s.points), ""));

@@ -29,7 +29,7 @@ pub(super) fn over_axes(plan: &Plan, known: &KnownCases, output: &Column) -> Vec
 }
 
 /// A label without its unit, for a title.
-pub(super) fn plain(label: &str) -> &str {
+pub(crate) fn plain(label: &str) -> &str {
     label.split(" [").next().unwrap_or_default()
 }
 
@@ -66,12 +66,13 @@ fn curves(plan: &Plan, known: &KnownCases, output: &Column, axis: usize) -> Opti
     Some(curves)
 }
 
-/// What tells a curve from the others: `tip relief [µm] 6`.
+/// Values of the other axes, which distinguish a curve: `tip relief 6 µm`.
 fn label(known: &KnownCases, axes: &[usize], case: usize) -> String {
     let one = |&k: &usize| {
         let name = label_of(&known.axes[k].name);
         let name = name.rsplit(", ").next().unwrap_or_default();
-        format!("{name} {}", words(known.axes[k].values[case]))
+        let unit = name.split_once(" [").map_or(String::new(), |(_, unit)| format!(" {}", unit.trim_end_matches(']')));
+        format!("{} {}{unit}", plain(name), words(known.axes[k].values[case]))
     };
     axes.iter().map(one).collect::<Vec<_>>().join(", ")
 }

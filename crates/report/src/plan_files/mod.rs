@@ -13,6 +13,7 @@ mod page;
 mod spread;
 mod write;
 
+pub(crate) use curves::plain;
 pub use page::{PageWords, report_folder};
 pub use write::write_cases;
 pub(crate) use write::{OBJECTS, documented};

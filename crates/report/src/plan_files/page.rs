@@ -36,8 +36,8 @@ pub fn report_folder(case: usize) -> String {
 
 /// The page.
 pub(super) fn page(plan: &Plan, known: &KnownCases, words: PageWords<'_>, answer: &Answer) -> Page {
-    let axes: Vec<&str> = plan.axes.iter().map(PlanAxis::name).collect();
-    let mut page = Page::of(answer, format!("{} over {}", counted(known.count(), "case"), axes.join(", ")));
+    let axes: Vec<String> = plan.axes.iter().map(|axis| plain(&label_of(PlanAxis::name(axis))).to_owned()).collect();
+    let mut page = Page::of(answer, format!("{} over {}", counted(known.count(), "case"), axes.join("; ")));
     page.push(numbers(known));
     page.push(Part::more().figures(known.outputs.iter().flat_map(|output| {
         let maps = maps(plan, known, output);
@@ -48,34 +48,34 @@ pub(super) fn page(plan: &Plan, known: &KnownCases, words: PageWords<'_>, answer
     page.push(cost_part(&answer.cost));
     page.push(
         again(words.again)
-            .note("Reports of the ten best cases: `--reports 10`; of some by their numbers: `--report-case 3,17`."),
+            .note("Add `--reports 10` for reports of the ten best cases, or `--report-case 3,17` for single cases."),
     );
     page
 }
 
-/// How each number is spread.
+/// Distribution of each output over the cases.
 fn numbers(known: &KnownCases) -> Part {
     let rows = known.outputs.iter().map(|output| {
         let spread = Spread::of(output.values.iter().copied());
         let [least, median, ninety, largest] =
-            [0.0, 0.5, 0.9, 1.0].map(|share| Cell::number(spread.quantile(share), 4));
+            [0.0, 0.5, 0.9, 1.0].map(|share| Cell::significant(spread.quantile(share)));
         let case = output.ascending().first().map_or_else(|| "-".to_owned(), usize::to_string);
-        vec![Cell::text(&output.name), least, Cell::count(case), median, ninety, largest]
+        vec![Cell::text(label_of(&output.name)), least, Cell::count(case), median, ninety, largest]
     });
-    let head = ["number", "least", "in case", "median", "90 %", "largest"];
-    Part::new("Numbers").closing().grid(Grid::new(head).rows(rows))
+    let head = ["quantity", "least", "in case", "median", "90 %", "largest"];
+    Part::new("Results").closing().grid(Grid::new(head).rows(rows))
 }
 
-/// What goes with what.
+/// Correlation of outputs with axes.
 fn together(known: &KnownCases) -> Part {
     let rows = known.axes.iter().map(|axis| {
         let with = known.outputs.iter().map(|output| Cell::number(pearson(&axis.values, &output.values), 3));
-        std::iter::once(Cell::text(&axis.name)).chain(with).collect()
+        std::iter::once(Cell::text(plain(&label_of(&axis.name)))).chain(with).collect()
     });
-    let head = ["axis"].into_iter().chain(known.outputs.iter().map(|output| output.name.as_str()));
-    let words = "Pearson's coefficient over the cases: 1 or -1 where one is a straight line of the other, 0 where it tells \
-                 nothing of it.";
-    Part::new("What goes with what").words(words).grid(Grid::new(head).rows(rows))
+    let outputs = known.outputs.iter().map(|output| plain(&label_of(&output.name)).to_owned());
+    let head = ["axis".to_owned()].into_iter().chain(outputs);
+    let words = "Pearson's correlation coefficient over all cases: 1 or -1 for a linear relation, 0 for none.";
+    Part::new("Correlation").words(words).grid(Grid::new(head).rows(rows))
 }
 
 /// The cases as a table to sort.
@@ -90,12 +90,15 @@ fn cases(known: &KnownCases, reports: &[usize]) -> Part {
         words += " A case with a link has a report of its own.";
     }
     let columns = || known.axes.iter().chain(&known.outputs);
-    let head = ["case"].into_iter().chain(columns().map(|column| column.name.as_str())).chain(["reason"]);
+    let has_reasons = known.reasons.iter().any(|reason| !reason.is_empty());
+    let reason = has_reasons.then(|| "reason".to_owned());
+    let head = ["case".to_owned()].into_iter().chain(columns().map(|column| label_of(&column.name))).chain(reason);
     let rows = shown.into_iter().map(|case| {
         let link = reports.contains(&case).then(|| format!("{}/report.html", report_folder(case)));
         let number = Cell { link, ..Cell::count(case) };
-        let numbers = columns().map(|column| Cell::number(column.values[case], 4));
-        std::iter::once(number).chain(numbers).chain([Cell::text(&known.reasons[case])]).collect()
+        let numbers = columns().map(|column| Cell::significant(column.values[case]));
+        let reason = has_reasons.then(|| Cell::text(&known.reasons[case]));
+        std::iter::once(number).chain(numbers).chain(reason).collect()
     });
     Part::new("Cases").words(words).grid(Grid::new(head).rows(rows).sortable())
 }
@@ -114,7 +117,8 @@ fn spread(output: &Column) -> Option<String> {
     let n = sorted.len() as f64;
     let share = |(i, &case): (usize, &usize)| (output.values[case], 100.0 * (i as f64 + 0.5) / n);
     let curve = Curve { label: String::new(), points: sorted.iter().enumerate().map(share).collect() };
-    line_chart(&format!("How {} is spread", plain(name)), name, "share of cases with no more [%]", &[curve], true)
+    let title = format!("Distribution of {}", plain(name));
+    line_chart(&title, name, "share of cases up to this value [%]", &[curve], true)
 }
 
 /// Pearson's coefficient over the cases that have a number; none where one of both does not vary.

@@ -1,11 +1,15 @@
 //! Figures of a study.
 
 use analysis::parameter_study::{Findings, last_cycles};
+use answer::label_of;
 use scene::study::{Follow, OverTime, Study};
 use study::StudyError;
 
 use super::{CaseResult, with_result};
-use crate::charts::{Curve, dot_chart, line_chart};
+use crate::{
+    charts::{Curve, dot_chart, line_chart},
+    plan_files::plain,
+};
 use columns::motion_history::{MESH_PHASE, TIME};
 
 /// A figure: a sentence above its charts.
@@ -29,24 +33,21 @@ pub(super) fn figures(study: &Study, runs: &[CaseResult], findings: &Findings) -
 fn following(study: &Study, runs: &[CaseResult], findings: &Findings, follow: &Follow) -> Result<Figure, StudyError> {
     let case = &study.cases[follow.case];
     let (Ok(run), Ok(_)) = (&runs[follow.case], &findings.cases[follow.case]) else {
-        let text = format!("{} has no result: {} is not drawn.", case.label, follow.column);
+        let text = format!("{} has no result: {} is not drawn.", case.label, plain(&label_of(&follow.column)));
         return Ok(Figure { text, charts: Vec::new() });
     };
     let rows = last_cycles(&case.scene, &run.record.rows, follow.cycles);
     let cycles = mesh_cycles(rows.series(MESH_PHASE.name)?);
     let chart = |name: &String| {
-        let curve = Curve { label: name.to_owned(), points: points(&cycles, rows.series(name)?) };
-        Ok(line_chart(&format!("{name}, {}", case.label), "mesh cycles", name, &[curve], false))
+        let label = label_of(name);
+        let curve = Curve { label: String::new(), points: points(&cycles, rows.series(name)?) };
+        Ok(line_chart(&format!("{}, {}", plain(&label), case.label), "mesh cycles", &label, &[curve], false))
     };
     let against = |beside: &String| {
-        let curve = Curve { label: beside.clone(), points: points(rows.series(beside)?, rows.series(&follow.column)?) };
-        Ok(line_chart(
-            &format!("{} against {beside}, {}", follow.column, case.label),
-            beside,
-            &follow.column,
-            &[curve],
-            false,
-        ))
+        let (x, y) = (label_of(beside), label_of(&follow.column));
+        let title = format!("{} against {}, {}", plain(&y), plain(&x), case.label);
+        let points = points(rows.series(beside)?, rows.series(&follow.column)?);
+        Ok(line_chart(&title, &x, &y, &[Curve { label: String::new(), points }], false))
     };
     let charts: Vec<Option<String>> = std::iter::once(&follow.column)
         .chain(&follow.beside)
@@ -57,10 +58,15 @@ fn following(study: &Study, runs: &[CaseResult], findings: &Findings, follow: &F
         .followers
         .iter()
         .filter(|f| f.column == follow.column && follow.beside.contains(&f.beside))
-        .map(|f| format!("{:+.3} with {}", f.correlation[follow.case].unwrap_or(f64::NAN), f.beside))
+        .map(|f| format!("{:+.3} with {}", f.correlation[follow.case].unwrap_or(f64::NAN), plain(&label_of(&f.beside))))
         .collect();
     Ok(Figure {
-        text: format!("Correlation of {} over all rows of {}: {}.", follow.column, case.label, said.join(", ")),
+        text: format!(
+            "Correlation of {} over all rows of {}: {}.",
+            plain(&label_of(&follow.column)),
+            case.label,
+            said.join(", ")
+        ),
         charts: charts.into_iter().flatten().collect(),
     })
 }
@@ -76,7 +82,8 @@ fn over_time(study: &Study, runs: &[CaseResult], findings: &Findings, over: &Ove
             Ok(Curve { label: case.label.clone(), points: points(&since, rows.series(&over.column)?) })
         })
         .collect::<Result<Vec<Curve>, StudyError>>()?;
-    let chart = line_chart(&format!("{} against time", over.column), "time [ms]", &over.column, &curves, false);
+    let label = label_of(&over.column);
+    let chart = line_chart(&format!("{} over time", plain(&label)), "time [ms]", &label, &curves, false);
     Ok(Figure { text: left_out(study, findings), charts: chart.into_iter().collect() })
 }
 
@@ -86,11 +93,11 @@ fn over_value(study: &Study, runs: &[CaseResult], findings: &Findings) -> Figure
         let mut at: Vec<(f64, f64)> =
             with_result(study, runs, findings).map(|(case, _, found)| (case.value, found.quantities[k])).collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let name = quantity.name();
-        let title = format!("{name} against {}", study.parameter);
+        let name = label_of(&quantity.name());
+        let title = format!("{} over {}", plain(&name), plain(&study.parameter));
         // Cases of one value are no curve: a line through them would go up and down.
         let several = at.windows(2).any(|pair| pair[0].0 == pair[1].0);
-        let curve = [Curve { label: name.clone(), points: at }];
+        let curve = [Curve { label: String::new(), points: at }];
         if several {
             dot_chart(&title, &study.parameter, &name, &curve)
         } else {

@@ -142,7 +142,7 @@ pub fn study_page(of: StudyResult<'_>, answer: &Answer) -> Result<Page, ReportEr
     for figure in figures(study, runs, findings)? {
         page.push(Part::more().words(figure.text).figures(figure.charts));
     }
-    page.push(Part::new("Numbers").closing().grid(grid(study, runs, findings)));
+    page.push(Part::new("Results").closing().grid(grid(study, runs, findings)));
     if let Some((full, s)) = study.full.zip(speed_up) {
         let text = speed_up_text(s, &study.cases[full.case].label, step_s(runs, full.case));
         page.push(Part::new("Against every degree of freedom").closing().with(Content::Items(vec![text])));

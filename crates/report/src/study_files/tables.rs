@@ -3,18 +3,22 @@
 use std::fmt::Write;
 
 use analysis::{accuracy_chart::SpeedUp, parameter_study::Findings};
-use answer::Table;
+use answer::{Table, label_of};
 use scene::study::Study;
 
 use super::CaseResult;
-use crate::page::{Cell, Grid};
+use crate::{
+    page::{Cell, Grid},
+    plan_files::plain,
+};
 
 /// A number of every case.
 struct Line {
     name: String,
+    /// Name in words, for a page.
+    label: String,
     meaning: &'static str,
     values: Vec<Option<f64>>,
-    decimals: usize,
 }
 
 /// All numbers, in their order.
@@ -28,19 +32,24 @@ fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
     ];
     let ratios = ratios.into_iter().enumerate();
     let mut all: Vec<Line> = ratios
-        .map(|(k, (name, meaning))| Line { name: name.to_owned(), meaning, values: ratio(k), decimals: 4 })
+        .map(|(k, (name, meaning))| Line {
+            name: name.to_owned(),
+            label: meaning.to_owned(),
+            meaning,
+            values: ratio(k),
+        })
         .collect();
     all.extend(study.quantities.iter().enumerate().map(|(k, quantity)| Line {
         name: quantity.name(),
+        label: label_of(&quantity.name()),
         meaning: "quantity of the study, by its `take` and column",
         values: cases().map(|c| Some(c?.quantities[k]).filter(|v| v.is_finite())).collect(),
-        decimals: 3,
     }));
     all.extend(findings.followers.iter().map(|f| Line {
         name: f.name(),
+        label: format!("correlation of {} with {}", plain(&label_of(&f.column)), plain(&label_of(&f.beside))),
         meaning: "Pearson's correlation coefficient of two columns over all rows of the case; `NaN` where one does not vary",
         values: f.correlation.clone(),
-        decimals: 4,
     }));
     all
 }
@@ -65,7 +74,7 @@ pub(super) fn grid(study: &Study, runs: &[CaseResult], findings: &Findings) -> G
     let parameter = row(&study.parameter, &mut study.cases.iter().map(|case| Cell::count(case.value)));
     let numbers = lines(study, findings)
         .into_iter()
-        .map(|line| row(&line.name, &mut line.values.iter().map(|value| Cell::number(*value, line.decimals))));
+        .map(|line| row(&line.label, &mut line.values.iter().map(|value| Cell::significant(*value))));
     let wall_s = |run: &CaseResult| run.as_ref().ok().map(|run| run.cost.wall_s);
     let wall = row("wall time, s", &mut runs.iter().map(|run| Cell::number(wall_s(run), 2)));
     Grid::new(head).rows([parameter]).rows(numbers).rows([wall])

@@ -23,13 +23,20 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     format!("{value:.places$}")
 }
 
+/// A given value with up to six significant digits, without zeros at its end: `153.333`, `150`.
+pub fn given(value: f64) -> String {
+    let decimals = if value == 0.0 { 0.0 } else { (5.0 - value.abs().log10().floor()).clamp(0.0, 9.0) };
+    let written = format!("{value:.*}", decimals as usize);
+    if written.contains('.') { written.trim_end_matches('0').trim_end_matches('.').to_owned() } else { written }
+}
+
 /// The load in words: `150 N m on the wheel`.
 pub fn torque(scene: &Scene) -> String {
     let driven = match scene.operation.driver {
         Driver::Pinion => "wheel",
         Driver::Wheel => "pinion",
     };
-    format!("{} N m on the {driven}", scene.operation.torque_nm)
+    format!("{} N m on the {driven}", given(scene.operation.torque_nm))
 }
 
 /// The model's name as in the scene.

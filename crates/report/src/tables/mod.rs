@@ -6,5 +6,6 @@ mod mesh_table;
 
 pub(crate) use geometry_table::{GeometryBlock, geometry_blocks};
 pub use geometry_table::{geometry_json, geometry_table};
+pub(crate) use lines::given;
 pub use lines::{fixed, model_name, push_line, torque};
 pub use mesh_table::{mesh_findings, mesh_findings_json, mesh_info_table};

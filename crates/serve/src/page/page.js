@@ -17,7 +17,7 @@
     moves.search = null;
     moves.under += 1;
     const seeks = Object.keys(search).length > 0;
-    const slow = setTimeout(() => { main.classList.add("waits"); $("time").textContent = ""; $("status").textContent = seeks ? "searching" : "solving; other gears are reduced first"; }, 400);
+    const slow = setTimeout(() => { main.classList.add("waits"); $("time").textContent = ""; $("status").textContent = seeks ? "searching" : "solving; changed gears are reduced first"; }, 400);
     try {
       const reply = await fetch("solve", { method: "POST", body });
       // 409: a later move has come.
@@ -128,8 +128,8 @@
     range.addEventListener("input", () => { exact.value = range.value; range.setAttribute("aria-valuetext", `${range.value} ${unit}`); set(key, range.value); });
     exact.addEventListener("change", () => set(key, exact.value));
     if ($("seek") && /\.modification\./.test(key)) {
-      const tick = Object.assign(document.createElement("input"), { type: "checkbox", className: "seek", title: "the search may move it" });
-      tick.setAttribute("aria-label", `the search may move the ${label}`);
+      const tick = Object.assign(document.createElement("input"), { type: "checkbox", className: "seek", title: "the search may change it" });
+      tick.setAttribute("aria-label", `the search may change the ${label}`);
       tick.addEventListener("change", () => { $("seek").disabled = !document.querySelector(".seek:checked"); });
       name.prepend(tick, " ");
     }
@@ -144,9 +144,12 @@
     begun("search");
     send();
   };
+  // `pinion.modification.tip_relief_um` as `pinion tip relief`, and the unit behind its value.
+  const words = key => key.replace(".modification.", " ").replace(/_(um|deg)$/, "").replace(/[._]/g, " ");
+  const unit = key => key.endsWith("_um") ? " µm" : key.endsWith("_deg") ? "°" : "";
   const found = ({ set: values, peak_to_peak_um: [from, to], evaluations }) => {
     Object.assign(scene.set, values);
-    $("sought").textContent = `Peak to peak ${from.toPrecision(3)} µm before, ${to.toPrecision(3)} µm now, after ${evaluations} evaluations. Grind: ${Object.entries(values).map(([key, value]) => `${key.replace(".modification.", " ").replace(/_/g, " ")} ${value}`).join(", ")}.`;
+    $("sought").textContent = `Peak to peak ${from.toPrecision(3)} µm before, ${to.toPrecision(3)} µm now, after ${evaluations} evaluations. Grind: ${Object.entries(values).map(([key, value]) => `${words(key)} ${value}${unit(key)}`).join(", ")}.`;
   };
   $("seek")?.addEventListener("click", seek);
 
