@@ -109,6 +109,9 @@ fn equation_number(text: &str) -> Option<(&str, &str)> {
 
 /// Numbers of `Theory (1), (2), (3).` wherever it stands in a text.
 fn cited(text: &str) -> BTreeSet<String> {
+    // A line of a comment may end anywhere.
+    let words = |line: &str| line.trim_start().trim_start_matches(['/', '!']).trim().to_owned();
+    let text = text.lines().map(words).collect::<Vec<_>>().join(" ");
     let mut numbers = BTreeSet::new();
     for (at, word) in text.match_indices("Theory ") {
         let mut rest = &text[at + word.len()..];
