@@ -1,6 +1,6 @@
 //! The exact contact of two elastic gears as a mesh of the gearbox. Theory (38), (81).
 
-use std::sync::Arc;
+use std::{any::Any, sync::Arc};
 
 use ale::{SlidingWindow, Station};
 use contact::{
@@ -183,7 +183,7 @@ fn found_forces(found: &MeshForce) -> MeshForces {
 }
 
 impl MeshElement for ExactMesh {
-    fn exact(&mut self) -> Option<&mut ExactMesh> {
+    fn to_join(&mut self) -> Option<&mut dyn Any> {
         Some(self)
     }
 

@@ -11,7 +11,7 @@ use ltca::StaticError;
 use nalgebra::{SMatrix, Vector3};
 use reduction::{ElasticGear, GearReducer, Window};
 
-use crate::{ExactMesh, GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Vector12, static_gearbox::at_mesh};
+use crate::{ExactMesh, GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Vector12, train::at_mesh};
 
 /// Compliances that are kept of a gear between two of its meshes: teeth change in turn, and come back.
 const KEPT: usize = 3;
@@ -46,7 +46,7 @@ struct SharedGear {
 impl JoinedMeshes {
     /// The joined meshes of a gearbox; meshes that are not exact are not among them.
     pub fn all(meshes: &[GearMesh], meshing: &[Meshing], elements: &mut [Box<dyn MeshElement>]) -> Vec<Self> {
-        let exact: Vec<usize> = (0..meshes.len()).filter(|&i| elements[i].exact().is_some()).collect();
+        let exact: Vec<usize> = (0..meshes.len()).filter(|&i| elements[i].to_join().is_some()).collect();
         let mut group: Vec<usize> = (0..meshes.len()).collect();
         let mut shared = Vec::new();
         for (&i, &j) in exact.iter().flat_map(|i| exact.iter().filter(move |j| *j > i).map(move |j| (i, j))) {
@@ -81,7 +81,8 @@ impl JoinedMeshes {
     ) -> Result<Vec<AcrossMeshes>, GearboxError> {
         let Self { meshes: own, gears, contacts } = self;
         let joined = elements.iter_mut().enumerate().filter(|(i, _)| own.binary_search(i).is_ok());
-        let mut exact: Vec<&mut ExactMesh> = joined.filter_map(|(_, element)| element.exact()).collect();
+        let mut exact: Vec<&mut ExactMesh> =
+            joined.filter_map(|(_, element)| element.to_join()?.downcast_mut()).collect();
         exact.iter_mut().zip(own.iter()).for_each(|(mesh, &i)| mesh.place(&displacements[i]));
         for gear in gears.iter_mut() {
             let of = gear.contacts.map(|k| &*exact[k]);

@@ -1,10 +1,12 @@
 //! Interface of all meshes: force and tangent for displacements of their gears. Theory (81).
 
+use std::any::Any;
+
 use contact::SliceResult;
 use ltca::FilletField;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use crate::{ExactMesh, GearboxError};
+use crate::GearboxError;
 
 /// Displacements of gear 1 and gear 2, or forces on them: x, y, z and the rotations about them, for each gear. They are
 /// in the mesh's own axes: x from gear 1's axis to gear 2's, z as everywhere.
@@ -52,9 +54,8 @@ pub trait MeshElement {
     /// [`GearboxError`] if the forces cannot be computed.
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError>;
 
-    /// Its slices, which those of other meshes of the same gears can be joined with ([`crate::StaticGearbox::joined`]); for
-    /// elements that are them.
-    fn exact(&mut self) -> Option<&mut ExactMesh> {
+    /// The element itself, for those whose slices can be joined with the slices of other meshes of the same gears.
+    fn to_join(&mut self) -> Option<&mut dyn Any> {
         None
     }
 
@@ -95,4 +96,11 @@ pub trait MeshElement {
 pub(crate) fn finite_cycles(cycles: f64) -> Result<f64, GearboxError> {
     let wrong = || GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles };
     if cycles.is_finite() { Ok(cycles) } else { Err(wrong()) }
+}
+
+/// Twelve values put where both gears are among the seats.
+pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
+    let mut all = DVector::zeros(size);
+    (0..12).for_each(|k| all[at[k / 6] + k % 6] += values[k]);
+    all
 }

@@ -10,7 +10,7 @@ use reduction::ElasticGear;
 
 use crate::GearboxError;
 
-/// What an [`ExactMesh`](crate::ExactMesh) has in common with others of the same gears.
+/// What an `ExactMesh` has in common with others of the same gears.
 #[derive(Debug)]
 pub struct MeshOfGears {
     pub(crate) pair: GearPair,

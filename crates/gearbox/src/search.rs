@@ -7,7 +7,7 @@ use crate::{
     equilibrium::{Converged, Left, equilibrium},
     joined_meshes::{AcrossMeshes, JoinedMeshes},
     rolling_bearing::RollingReply,
-    static_gearbox::at_mesh,
+    train::at_mesh,
 };
 
 /// Loads that a light one is found by way of: powers of this factor, and how many.

@@ -10,7 +10,7 @@ use crate::{
     joined_meshes::AcrossMeshes,
     position::{Solved, position},
     search::Trial,
-    static_gearbox::at_mesh,
+    train::at_mesh,
 };
 
 impl StaticGearbox {

@@ -9,8 +9,10 @@ use crate::{
     equilibrium::Norms,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
     joined_meshes::JoinedMeshes,
+    mesh_element::spread,
     rolling_bearing::RollingState,
     seats::Seats,
+    train::at_mesh,
     turned_seat::TurnedSprings,
     unconstrained::check_held,
 };
@@ -206,14 +208,6 @@ impl StaticGearbox {
     }
 }
 
-pub(crate) fn at_mesh(mesh: &GearMesh, source: GearboxError) -> GearboxError {
-    // That of a pair is the only one.
-    if mesh.name.is_empty() {
-        return source;
-    }
-    GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
-}
-
 /// Checks that loads and held shafts exist, and that loads do not drive.
 pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
     let count = structure.shafts.len();
@@ -235,13 +229,6 @@ pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation)
         }
     }
     Ok(())
-}
-
-/// Twelve values put where both gears are among the seats.
-pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
-    let mut all = DVector::zeros(size);
-    (0..12).for_each(|k| all[at[k / 6] + k % 6] += values[k]);
-    all
 }
 
 /// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.

@@ -17,6 +17,14 @@ pub struct GearMesh {
     pub pair: GearPair,
 }
 
+/// An error of a mesh, with its name; that of a pair is the only one.
+pub(crate) fn at_mesh(mesh: &GearMesh, source: GearboxError) -> GearboxError {
+    if mesh.name.is_empty() {
+        return source;
+    }
+    GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
+}
+
 /// Running of one mesh: driver, sense, flanks, direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meshing {

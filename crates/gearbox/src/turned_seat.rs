@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix6, SMatrix, Vector2, Vector3, Vector6};
 
-use crate::{Assembly, Bearing, Structure, Vector12, seats::Seats, static_gearbox::spread};
+use crate::{Assembly, Bearing, Structure, Vector12, mesh_element::spread, seats::Seats};
 
 /// Relative difference of a stiffness and the same one turned about z that is round-off.
 const ALL_ROUND: f64 = 1e-12;

@@ -399,7 +399,9 @@ mod tests {
         assert_eq!(read.a.unwrap().span(), 100..101);
         assert_eq!(set("", "c.d", "\"y\"").unwrap().c.unwrap().get_ref().d.as_deref(), Some("y"));
         assert_eq!(set("b = [1, 2]", "b.1", "7").unwrap().b.unwrap()[1].span(), 100..101);
-        let beyond = set("b = [1, 2]", "b.2", "7").unwrap_err();
+        assert_eq!(set("b = [1, 2]", "b.2", "7").unwrap().b.unwrap()[2].span(), 100..101, "one more entry");
+        assert_eq!(set("", "b.0", "7").unwrap().b.unwrap().len(), 1, "the first one");
+        let beyond = set("b = [1, 2]", "b.3", "7").unwrap_err();
         assert_eq!((beyond.span, beyond.message.starts_with("invalid type: map")), (Some(100..101), true));
         let named = |which: &str| {
             let mut root = Node::of_text("[[g]]\nname = \"x\"\n[[g]]\nname = \"y, z\"\n").unwrap();

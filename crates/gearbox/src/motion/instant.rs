@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, DVectorView, Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
 use super::{Drive, GearboxMechanism, rolling_supports::BesideSprings};
-use crate::{BearingState, GearboxError, Vector12, static_gearbox::at_mesh};
+use crate::{BearingState, GearboxError, Vector12, train::at_mesh};
 
 /// State of a mesh at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use super::{
     lever_mesh::{LEVERS, LeverForces},
     loops,
 };
-use crate::{GearMesh, GearboxError, MeshForces, Vector12, static_gearbox::at_mesh};
+use crate::{GearMesh, GearboxError, MeshForces, Vector12, train::at_mesh};
 
 /// An element, what the coordinates of the motion do to its gears, and its last answer.
 pub(super) struct LiveMesh {

@@ -14,7 +14,8 @@ use super::{
 use crate::{
     Assembly, GearMesh, GearboxError, Meshing, Operation, Structure, Train, Vector12,
     even_mesh::turn,
-    static_gearbox::{at_mesh, check, guessed_force},
+    static_gearbox::{check, guessed_force},
+    train::at_mesh,
 };
 
 /// Moving shafts, bearings and meshes: any number of each, every mesh at its own phase.

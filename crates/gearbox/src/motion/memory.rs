@@ -5,7 +5,7 @@ use integrate::Resumable;
 use serde::{Deserialize, Serialize};
 
 use super::{GearboxMechanism, TorqueMemory, live_mesh::LiveMesh};
-use crate::{GearboxError, static_gearbox::at_mesh};
+use crate::{GearboxError, train::at_mesh};
 
 /// State of a moving mesh in addition to its displacements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

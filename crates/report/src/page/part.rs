@@ -139,6 +139,7 @@ impl Cell {
     pub fn significant(value: impl Into<Option<f64>>) -> Self {
         let text = |v: f64| match v.round() {
             whole if (v - whole).abs() <= 1e-9 * v.abs() => format!("{whole:.0}"),
+            _ if v.abs() < 1e-4 => format!("{v:.3e}"),
             _ => fixed(v, (3.0 - v.abs().log10().floor()).clamp(0.0, 8.0) as usize),
         };
         let text = value.into().filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), text);
