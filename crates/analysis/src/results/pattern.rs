@@ -55,8 +55,8 @@ pub fn diameter(base_radius: f64, roll: f64) -> f64 {
 
 /// Patterns of pinion and wheel.
 ///
-/// All pairs of a mesh cycle together are one complete engagement of one tooth: pair k at phase s is where a tooth is k
-/// + s cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest
+/// All pairs of a mesh cycle together are one complete engagement of one tooth: pair k at phase s is where a tooth is
+/// k + s cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest
 /// values count.
 ///
 /// # Errors

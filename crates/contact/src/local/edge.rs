@@ -1,8 +1,8 @@
 //! Contact near a tip edge, at it, and beyond it.
 //!
 //! Near its tip a tooth is a wedge. Let x be the distance from the edge along the flank, in half-widths a of the
-//! Hertzian band that the same load would make far from the edge. The band lies where the gap (x - D)^2 a^2 / (2 R), x
-//! > 0, is closed: D > 1 on the flank; -1 < D < 1 cut off by the edge; D < 0 with the edge off the line of action
+//! Hertzian band that the same load would make far from the edge. The band lies where the gap (x - D)^2 a^2 / (2 R) is
+//! closed, for positive x: D > 1 on the flank; -1 < D < 1 cut off by the edge; D < 0 with the edge off the line of action
 //! (there the flanks diverge by the angle -D a / R). A force on the flank of a wedge indents it by
 //!
 //! ```text
