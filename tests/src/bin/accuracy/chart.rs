@@ -153,7 +153,8 @@ fn at_rest(scene: &Scene) -> Result<Section, Failure> {
         title: format!("A pair at rest, {pinion}/{wheel} teeth, {} degrees", scene.pinion.helix_angle_deg),
         words: format!(
             "Module 3 mm, 15 mm wide, 200 N m, 16 positions. Against slices, twice as many, on {} elements along the profile; \
-             bounds are against the exact pair. `full` and CalculiX ran 2 positions, the time of a cycle scaled from them.",
+             bounds are against the exact pair. `full` ran 2 positions, the time of a cycle scaled from them; CalculiX \
+             beside it: [performance](performance.md).",
             chart.reference_density.profile
         ),
         numbers: vec!["mean STE", "peak to peak"],
