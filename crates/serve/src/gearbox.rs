@@ -14,7 +14,7 @@ use report::{
 };
 use scene::gearbox::Gearbox;
 
-use crate::{fault::Fault, scene_text::flat, session::Outcome};
+use crate::{fault::Fault, outcome::Outcome, scene_text::flat};
 
 /// A gearbox as it was solved, and the time that took, ms.
 pub(crate) struct SolvedGearbox {

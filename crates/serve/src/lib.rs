@@ -16,6 +16,7 @@
 //! | `workers` | threads that solve moves |
 //! | `session` | a scene with its changes, solved, as the page takes it |
 //! | `gearbox` | a gearbox at rest, as the page takes it |
+//! | `outcome` | what is shown of a solved document |
 //! | `scene_text` | keys of a scene's text changed one by one; keys that a complaint is about |
 //! | `sliders` | what is moved by hand, and within which ends |
 //! | `form` | all keys of a scene at rest, from the schema |
@@ -26,6 +27,7 @@ mod form;
 mod gearbox;
 mod guard;
 mod listen;
+mod outcome;
 mod page;
 mod queue;
 mod reply;

@@ -20,7 +20,7 @@ use answer::shown_units;
 use export::view::View;
 use ltca::StaticHistory;
 use report::{
-    charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
+    charts::{LineChart, contact_pattern_maps},
     static_charts,
 };
 use scene::{
@@ -35,6 +35,7 @@ use crate::{
     fault::Fault,
     form::is_text,
     gearbox::{self, SolvedGearbox},
+    outcome::Outcome,
     scene_text::{changed, flat},
     sliders::{Slider, completed, short, sliders, sliders_of_gearbox, with_starts},
 };
@@ -88,21 +89,6 @@ struct Answer<'a> {
     fault: Option<Fault>,
     #[serde(skip_serializing_if = "Option::is_none")]
     result: Option<Outcome<'a>>,
-}
-
-/// What is shown of a solved document.
-#[derive(Debug, Serialize)]
-pub(crate) struct Outcome<'a> {
-    pub name: &'a str,
-    pub solve_ms: f64,
-    pub headline: serde_json::Value,
-    /// Some of it in words.
-    pub glance: Vec<[String; 2]>,
-    pub charts: Vec<Plot>,
-    pub maps: Vec<FieldMap<'static>>,
-    /// The gears in space, of a pair.
-    pub view: Option<View>,
-    pub remarks: Vec<String>,
 }
 
 /// What a document describes.
