@@ -76,21 +76,23 @@ fn laws(coarse: bool) {
     assert!((1.0..1.15).contains(&(pressure / AT_PITCH_POINT)), "{pressure} MPa");
     let factors = |found: &GearboxResult| found.planets.iter().map(|own| own.factor.unwrap()).fold(1.0, f64::max);
     assert!(factors(&found) - 1.0 < 1e-6, "{}", factors(&found));
-    let pin = |text: String| text.replace("count = 3\n", "count = 3\ntangential_errors_um = [100.0, 0.0, 0.0]\n");
+    let with = |text: String, from: &str, to: &str| {
+        let changed = text.replace(from, to);
+        assert_ne!(changed, text, "{from}");
+        changed
+    };
+    let pin = |text: String| with(text, "count = 3\n", "count = 3\ntangential_errors_um = [100.0, 0.0, 0.0]\n");
     let stiff = |text: String| {
-        pin(text).replace(
-            "[1e5, 1e5, 1e5]\ntilt_stiffness_nm_per_rad = [1e5, 1e5]",
-            "[1e8, 1e8, 1e5]\ntilt_stiffness_nm_per_rad = [1e9, 1e9]",
-        )
+        let soft = "[1e5, 1e5, 1e5]\ntilt_stiffness_nm_per_rad = [1e5, 1e5]";
+        with(pin(text), soft, "[1e8, 1e8, 1e5]\ntilt_stiffness_nm_per_rad = [1e9, 1e9]")
     };
     let [floats, held] = [factors(&solved(pin, coarse)), factors(&solved(stiff, coarse))];
     println!("K_gamma with a pin 0.1 mm off: {floats:.4}, {held:.4} with a sun that is held");
-    assert!(floats < 1.01 && held - 1.0 > 5.0 * (floats - 1.0), "{floats} and {held}");
+    // Without the pin's error it would be 1 to 1e-6.
+    assert!(floats > 1.001 && floats < 1.01 && held - 1.0 > 5.0 * (floats - 1.0), "{floats} and {held}");
     let edges = |text: String| {
-        let all = text
-            .replace("[mesh.scene.operation]", "[mesh.scene.contact]\ncorner_contact = false\n[mesh.scene.operation]");
-        assert_ne!(all, text);
-        all
+        let operation = "[mesh.scene.operation]";
+        with(text, operation, &format!("[mesh.scene.contact]\ncorner_contact = false\n{operation}"))
     };
     let [_, balance, torques] = left_over(&solved(edges, coarse));
     println!("without edges: torques off by {torques:.1e}, sum {balance:.1e}");
@@ -104,7 +106,7 @@ fn the_second_stage_is_in_balance() {
 
 /// On the meshes of the document.
 #[test]
-#[ignore = "2 minutes"]
+#[ignore = "a minute"]
 fn the_second_stage_is_in_balance_on_its_own_meshes() {
     laws(false);
 }

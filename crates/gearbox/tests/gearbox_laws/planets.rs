@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use gearbox::{
-    Assembly, Bearing, Disc, GearMesh, GearboxError, GearboxPosition, LoadSharing, MeshSpring, Operation, Rotors,
-    SeatError, Shaft, StaticGearbox, Structure, Torque,
+    Assembly, Bearing, Disc, GearMesh, GearboxError, GearboxPosition, LoadSharing, MeshElement, MeshSpring, Meshing,
+    Operation, Rotors, SeatError, Shaft, StaticGearbox, Structure, Torque,
     rolling_bearing::{AxialSetting, RollingElements, Row},
 };
 use geometry::{Gear, GearData, GearPair, Sense};
@@ -13,9 +13,12 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::{
     involute_mesh::involutes,
-    pairs::{operation, shaft},
+    pairs::{operation, shaft, springs},
     rolling::{balls_209, made},
 };
+
+/// What makes the test mesh of a pair.
+type Element = fn(usize, &GearMesh, &Meshing) -> Result<Box<dyn MeshElement>, GearboxError>;
 
 /// Sun, planet and ring; module 3 mm: 3, 4, 5 and 6 planets go in evenly.
 const TEETH: [u32; 3] = [40, 20, 80];
@@ -177,8 +180,12 @@ impl Stage {
     }
 
     fn solve(self) -> (Structure, GearboxPosition) {
+        self.solve_with(involutes)
+    }
+
+    fn solve_with(self, element: Element) -> (Structure, GearboxPosition) {
         let (structure, meshes, run) = self.parts();
-        let made = StaticGearbox::new(structure.clone(), meshes, run, involutes);
+        let made = StaticGearbox::new(structure.clone(), meshes, run, element);
         (structure, made.and_then(|mut g| g.solve(0.0)).unwrap_or_else(|e| panic!("{e}")))
     }
 
@@ -320,20 +327,23 @@ fn a_pin_error_is_shared_by_the_path_stiffness() {
     }
 }
 
-/// K_gamma - 1 goes with 1/torque as long as all planets carry: a pin error takes a force, not a share; but for pressure
-/// angles, which follow the displacements of the axes in proportion to the torque. The share of each is its force over the
+/// K_gamma - 1 goes with 1/torque as long as all planets carry: a pin error takes a force, not a share. Exactly so of springs
+/// on the ground, to 1e-9; of involutes on pins but for pressure angles, which follow the displacements of the axes in
+/// proportion to the torque. The share of each is its force over the
 /// sum, and a planet that carries nothing leaves N/(N - 1) and more to the others.
 #[test]
 fn the_load_sharing_factor_is_a_hyperbola_over_the_torque() {
-    let over = |torque: f64, off: f64| {
-        let stage = Stage { torque, off, carried: Carried::Pins, ..STAGE };
-        let (_, found) = stage.solve();
+    let over = |(carried, element): (Carried, Element), torque: f64, off: f64| {
+        let stage = Stage { torque, off, carried, ..STAGE };
+        let (_, found) = stage.solve_with(element);
         let sharing = [0, 1].map(|which| LoadSharing::of(std::slice::from_ref(&found), &stage.meshes(which)));
         let forces: Vec<f64> = stage.meshes(0).iter().map(|m| found.meshes[*m].normal_force).collect();
         (sharing, forces)
     };
-    let extra = |torque: f64| {
-        let ([sun, ring], forces) = over(torque, 10e-3);
+    let (linear, exact): ((Carried, Element), (Carried, Element)) =
+        ((Carried::Ground, springs), (Carried::Pins, involutes));
+    let extra = |stage: (Carried, Element), torque: f64| {
+        let ([sun, ring], forces) = over(stage, torque, 10e-3);
         let sum: f64 = forces.iter().sum();
         for (own, force) in sun.planets.iter().zip(&forces) {
             assert!((own.mean - force / sum).abs() < 1e-15 && own.least == own.largest, "{own:?}");
@@ -342,12 +352,16 @@ fn the_load_sharing_factor_is_a_hyperbola_over_the_torque() {
         assert!((sun / ring - 1.0).abs() < 1e-9, "{sun} and {ring}");
         sun - 1.0
     };
-    let all = [1.0, 2.0, 5.0].map(|times| times * extra(times * TORQUE));
+    let of = |stage: (Carried, Element)| [1.0, 2.0, 5.0].map(|times| times * extra(stage, times * TORQUE));
+    let all = of(linear);
+    println!("K_gamma - 1 times the torque, springs on the ground: {all:?}");
+    assert!(all[0] > 0.02 && all.iter().all(|own| (own / all[0] - 1.0).abs() < 1e-9), "{all:?}");
+    let all = of(exact);
     println!("K_gamma - 1 times the torque: {all:?}");
     assert!(all[0] > 0.02 && all.iter().all(|own| (own / all[0] - 1.0).abs() < 1e-3), "{all:?}");
     let [twice, five] = [1, 2].map(|i| all[i] - all[0]);
     assert!((five / twice / 4.0 - 1.0).abs() < 0.01, "{all:?}");
-    let ([idle, _], forces) = over(TORQUE, 1.0);
+    let ([idle, _], forces) = over(exact, TORQUE, 1.0);
     assert!(forces[0] == 0.0 && idle.planets[0].mean == 0.0, "{forces:?}");
     assert!(idle.factor.unwrap() >= 1.5 - 1e-12, "{idle:?}");
     assert_eq!(LoadSharing::of(&[], &[0, 2]).factor, None);
