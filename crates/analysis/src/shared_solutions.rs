@@ -29,6 +29,7 @@ use crate::{
     solution_remarks::{deflection_remarks, jammed_pair},
     solved_load::under_loads,
     static_certificate,
+    static_cycle::closing_changes,
     varied_scene::VariedScene,
     window::{foreseen_window, wider_window},
 };
@@ -176,6 +177,7 @@ impl SharedModels<'_> {
                 })?;
                 if (interest.positions)() {
                     history.under_loads = under_loads(&scene, &model, (interest.positions, &mut NoObserver))?;
+                    history.tooth_changes.extend(closing_changes(&scene, &mut model)?);
                 }
                 Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?, base))
             },

@@ -6,7 +6,7 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use ale::{Station, solve_widening};
 use geometry::GearPair;
-use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
+use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions, ToothChangeRecord};
 use reduction::ElasticGear;
 use scene::{Model, Scene};
 
@@ -130,16 +130,24 @@ fn attempt(
     })?;
     history.under_loads = under_loads(scene, &model, (&|| true, observer))?;
     sink.finish().map_err(AnalysisError::Sink)?;
-    // Where a window of an odd number of teeth changes, the cycle ends. Whole gears have no window that could slide.
-    if model.contact_set().windows().is_some() {
-        let end = Station { cycle: cycles as i64, phase: 0.0 };
-        let closing = run_phase(observer, "change", PhaseWork::Unknown, |_| model.tooth_changes_at(end))?;
-        history.tooth_changes.extend(closing);
-    }
+    let closing = run_phase(observer, "change", PhaseWork::Unknown, |_| closing_changes(scene, &mut model))?;
+    history.tooth_changes.extend(closing);
     if let (Some(keys), true) = (keys, cache.is_on()) {
         // After the run, when every window and half tooth that it took is known.
         remarks.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
     }
     history.remarks.extend(remarks);
     Ok((model, history))
+}
+
+/// The tooth changes that close the last mesh cycle of a scene: a window of an odd number of teeth changes where a cycle
+/// ends. None of whole gears, which have no window that could slide.
+///
+/// # Errors
+/// [`StaticError`] where a window next to it does not hold the load: the cycle is refused, as by itself so in a plan.
+pub(crate) fn closing_changes(scene: &Scene, model: &mut StaticModel) -> Result<Vec<ToothChangeRecord>, StaticError> {
+    if model.contact_set().windows().is_none() {
+        return Ok(Vec::new());
+    }
+    model.tooth_changes_at(Station { cycle: i64::from(scene.analysis.cycles), phase: 0.0 })
 }

@@ -67,7 +67,7 @@ pub use load_sharing::{LoadSharing, PlanetShare, load_shares, planet_play};
 pub use mesh_bears::MeshBears;
 pub use mesh_element::{MeshElement, MeshForces, ModalForces, Vector12};
 pub use mesh_of_gears::MeshOfGears;
-pub use mesh_torques::mesh_torques;
+pub use mesh_torques::{even_mesh_torques, mesh_torques};
 pub use modal_energy::{Component, EnergyShare, ModalEnergy};
 pub use seat_error::SeatError;
 pub use static_gearbox::{Operation, StaticGearbox, Torque};

@@ -1,8 +1,14 @@
-//! Torques of the meshes of a train without closed loops, from equilibrium alone.
+//! Torques of the meshes of a train from equilibrium alone: of closed loops their even shares.
 
 use geometry::Gear;
+use nalgebra::{DMatrix, DVector};
 
 use crate::{GearMesh, Operation, Structure};
+
+/// Singular values over the largest arm that are round-off.
+const SINGULAR: f64 = 1e-10;
+/// Torques left over the loads that are round-off.
+const SAME: f64 = 1e-9;
 
 /// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, without friction. `None` if meshes form a closed
 /// loop, in which the shares depend on stiffness, and if a shaft fixed in space takes a torque.
@@ -48,4 +54,50 @@ pub fn mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Oper
         on_shaft[ends[mesh][1 - end]] += other;
     }
     Some(all)
+}
+
+/// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, without friction, of closed loops the shares with
+/// the least sum of squared forces: those of planets that are all alike, and a measure of what the loops must carry,
+/// since of n meshes one has at least 1/sqrt(n) of their root of squares. Those of [`mesh_torques`] where there is no
+/// loop.
+///
+/// ```text
+/// sum_m a_m r_m F_m + sum T_loads = 0   on every shaft that turns, but that of the input;   sum F_m^2 -> min
+/// a_m = 1 on gear 1, z_2/z_1 on gear 2 (below zero of a ring);   r_m: pitch radius of gear 1
+/// ```
+///
+/// `None` where no forces of the teeth are in equilibrium: a load on a shaft that no mesh reaches.
+pub fn even_mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Operation) -> Option<Vec<[f64; 2]>> {
+    let shaft = |disc: usize| Some(structure.discs.get(disc)?.shaft);
+    let input = shaft(operation.input)?;
+    let turns = |own: usize| own != input && structure.fixed != Some(own) && !structure.standing.contains(&own);
+    let mut a = DMatrix::zeros(structure.shafts.len(), meshes.len());
+    let mut b = DVector::zeros(structure.shafts.len());
+    let arms: Vec<[f64; 2]> = meshes.iter().map(|mesh| arms(&mesh.pair.pinion, &mesh.pair.wheel)).collect();
+    for (i, (mesh, arms)) in meshes.iter().zip(&arms).enumerate() {
+        for (disc, arm) in mesh.discs.into_iter().zip(arms) {
+            let own = shaft(disc)?;
+            if turns(own) {
+                a[(own, i)] += arm;
+            }
+        }
+    }
+    for load in &operation.torques {
+        let own = shaft(load.disc)?;
+        if turns(own) {
+            b[own] -= load.torque;
+        }
+    }
+    let (size, scale): (f64, f64) = (b.norm(), a.amax());
+    let forces = a.clone().svd(true, true).solve(&b, SINGULAR * scale).ok()?;
+    if (&a * &forces - b).norm() > SAME * size {
+        return None;
+    }
+    Some(arms.iter().zip(forces.iter()).map(|(arms, force)| arms.map(|arm| arm * force)).collect())
+}
+
+/// Arms of a tangential force on gear 1 and gear 2, mm: torques of both per unit of force.
+fn arms(one: &Gear, two: &Gear) -> [f64; 2] {
+    let arm = one.reference_radius().abs();
+    [arm, arm * two.signed_teeth() / one.signed_teeth()]
 }

@@ -194,7 +194,7 @@ impl Source<'_> {
             Some((_, text)) => Document::made(text.clone(), &path, Origin::Disk, files),
             None => Document::read_beside(&path, files).map_err(|e| match e {
                 SceneError::Read { file, source } => {
-                    let said = format!("{} cannot be read: {source}", file.display());
+                    let said = format!("\"{}\" cannot be read: {source}", file.display());
                     self.conflict(&word.span(), said, format!("paths are relative to the {whose}"))
                 }
                 other => other,

@@ -150,8 +150,13 @@ impl Starter {
         t
     }
 
+    /// Thinning of each tooth of a gear that states none, mm.
+    pub(crate) fn thinning_mm(&self) -> f64 {
+        (1e3 * THINNING * self.module_mm).round().max(1.0) / 1e3
+    }
+
     fn gears(&self, t: &mut String) {
-        let thinning = (1e3 * THINNING * self.module_mm).round().max(1.0) / 1e3;
+        let thinning = self.thinning_mm();
         for (i, table) in ["pinion", "wheel"].into_iter().enumerate() {
             let _ = write!(t, "[{table}]\nteeth = {}\n", self.teeth[i]);
             if i == 0 {

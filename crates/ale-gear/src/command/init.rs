@@ -11,7 +11,7 @@ use files::{write_file, write_new_file};
 
 use scene::{
     RexsGearbox, RexsPair, Starter,
-    gearbox::{Gearbox, GearboxOfPair, gearbox_of_pair},
+    gearbox::{Gearbox, GearboxOfPair, StageHeld, StageStarter, gearbox_of_pair},
     read_gearbox, read_pair, read_rexs,
 };
 
@@ -56,8 +56,9 @@ struct PairArgs {
     /// Title of the case [default: from the teeth]
     #[arg(long)]
     name: Option<String>,
-    /// Numbers of teeth of pinion and wheel, the wheel's negative if internal [default: 30,30]
-    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    /// Numbers of teeth of pinion and wheel, the wheel's negative if internal; three numbers, sun, planet and ring, are a
+    /// planetary stage, of which the other words say sun and planet [default: 30,30]
+    #[arg(long, value_name = "Z1,Z2[,Z3]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     teeth: Vec<i32>,
     /// Normal module [default: 3]
     #[arg(long, value_name = "MM")]
@@ -83,6 +84,19 @@ struct PairArgs {
     /// Equilibrium at every position, or motion in time [default: static]
     #[arg(long)]
     kind: Option<KindWord>,
+    /// Number of planets of a planetary stage [default: 3]
+    #[arg(long, value_name = "N")]
+    planets: Option<usize>,
+    /// What of a planetary stage stands in space; the torque is that on the member that is left [default: ring]
+    #[arg(long)]
+    held: Option<HeldWord>,
+}
+
+/// What of a stage stands, as a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum HeldWord {
+    Ring,
+    Carrier,
 }
 
 /// What is computed, as a word.
@@ -97,6 +111,13 @@ impl InitArgs {
     pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         if let Some(scene) = &self.of_pair {
             return self.write_gearbox_of(scene, quiet);
+        }
+        if let [_, _, ring_teeth] = self.pair.teeth[..] {
+            return self.write_stage(ring_teeth, quiet);
+        }
+        if self.pair.planets.is_some() || self.pair.held.is_some() {
+            let hint = "give the teeth of sun, planet and ring, such as `--teeth 21,30,-81`".to_owned();
+            return Err(CommandError::input("`--planets` and `--held` are words on a planetary stage", Some(hint)));
         }
         let nothing_said = self.pair == PairArgs::default() && self.rexs.is_none();
         let read = match &self.rexs {
@@ -169,6 +190,54 @@ impl InitArgs {
         }
         write_new(&file, &text, self.force)?;
         let shown = file.display();
+        Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
+    }
+
+    /// Writes the gearbox file of a planetary stage.
+    fn write_stage(&self, ring_teeth: i32, quiet: bool) -> Result<String, CommandError> {
+        let refused = |what: &str, hint: &str| Err(CommandError::input(what, Some(hint.to_owned())));
+        if self.rexs.is_some() || self.pair.kind.is_some() {
+            return refused(
+                "a planetary stage is neither of a REXS file nor of a kind",
+                "leave `--rexs` and `--kind` out: `[motion]` of the file that is written asks for a motion",
+            );
+        }
+        if ring_teeth >= 0 {
+            return refused("the ring's number of teeth is not negative", "a ring has its teeth inside: write -81");
+        }
+        let mut words = self.pair.clone();
+        words.teeth.truncate(2);
+        let starter = words.over(Starter { torque_nm: 1000.0, helix_deg: 0.0, ..Starter::default() })?;
+        let held = match self.pair.held {
+            Some(HeldWord::Carrier) => StageHeld::Carrier,
+            Some(HeldWord::Ring) | None => StageHeld::Ring,
+        };
+        let stage = StageStarter { pair: starter, ring_teeth, planets: self.pair.planets.unwrap_or(3), held };
+        let most = stage.most_planets()?;
+        if stage.planets == 0 || stage.planets > most {
+            let what = format_args!("{} planets do not fit around this sun", stage.planets);
+            return Err(CommandError::input(what, Some(format!("1 to {most} have room"))));
+        }
+        let file = self.gearbox_file();
+        let to_stdout = file.as_os_str() == "-";
+        let shown = if to_stdout { "gearbox.toml".into() } else { file.display().to_string() };
+        if !to_stdout && !self.force {
+            absent(&file)?;
+        }
+        let even = -(stage.pair.teeth[0] + 2 * stage.pair.teeth[1]);
+        let text = stage.text(&shown).map_err(|e| match CommandError::from(e) {
+            own if ring_teeth == even => own,
+            own => CommandError {
+                message: format!("no ring of {} teeth: {}", -ring_teeth, without_place(&own.message)),
+                excerpt: None,
+                hint: Some(format!("a ring of {even} teeth, as the sun and two planets, needs no profile shift")),
+                ..own
+            },
+        })?;
+        if to_stdout {
+            return Ok(text);
+        }
+        write_new(&file, &text, self.force)?;
         Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
     }
 

@@ -169,7 +169,7 @@ fn only_what_has_an_end_is_read() {
         (&["run", "pipe", "--out", "o"], "pipe: cannot be read: "),
         (&["run", "/dev/zero", "--out", "o"], "/dev/zero: cannot be read: "),
         (&["vary", "pipe", "--out", "o"], "pipe: cannot be read: "),
-        (&["run", "study.toml", "--out", "o"], "study.toml:2: pipe cannot be read: "),
+        (&["run", "study.toml", "--out", "o"], "study.toml:2: \"pipe\" cannot be read: "),
         (&["init", "new.toml", "--rexs", "pipe"], "pipe: cannot be read: "),
         (&["mesh", "info", "/dev/zero"], "/dev/zero: cannot be read: "),
         (&["mesh", "reduce", "zero.msh"], "zero.msh: cannot be read: "),

@@ -234,7 +234,7 @@ fn wrong_studies_are_told_with_line_and_hint() {
     says(
         "\"a.toml\"",
         "\"z.toml\"",
-        "s.toml:4: z.toml cannot be read: No such file or directory (os error 2)\nhint: paths are relative to the study file",
+        "s.toml:4: \"z.toml\" cannot be read: No such file or directory (os error 2)\nhint: paths are relative to the study file",
     );
     says(
         "[[over_time]]",

@@ -4,7 +4,7 @@ use crate::remark;
 use gearbox::{
     Bearing, GearboxError, GearboxPosition, Train,
     rolling_bearing::{
-        AxialSeat, AxialSetting, BallGeometry, BoundaryDimensions, Catalogue, Filling, LifeModification,
+        AxialSeat, AxialSetting, BallGeometry, BoundaryDimensions, Catalogue, ElementLoad, Filling, LifeModification,
         RollerGeometry, RollerProfile, RollingBearing, RollingBearingError, RollingElements, RollingFriction,
         RollingState, Row,
     },
@@ -23,7 +23,7 @@ const HALF: f64 = 0.5;
 const FAST: f64 = 5e5;
 
 /// Results of a rolling bearing over all positions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RollingLoad {
     /// Rolling elements, as given or estimated.
     pub elements: RollingElements,
@@ -45,6 +45,8 @@ pub struct RollingLoad {
     pub pressure: f64,
     /// Smallest and largest number of loaded rolling elements.
     pub loaded: [usize; 2],
+    /// Rolling elements with the means of their forces over all positions.
+    pub zone: Vec<ElementLoad>,
     /// Speed of its shaft, 1/min, if it is rated.
     pub speed_rpm: Option<f64>,
     /// Its life, if its dynamic rating and a speed are known and it is loaded.
@@ -272,6 +274,7 @@ pub(super) fn rolling_load(
         element_force: most(&|s| s.element_force),
         pressure,
         loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
+        zone: mean_zone(law, &states),
         speed_rpm: turns.map(|turns| turns.speed_rpm),
         spectrum_life_h: None,
         life: turns.as_ref().and_then(|turns| life(rolling, law, &states, turns)),
@@ -284,6 +287,15 @@ pub(super) fn rolling_load(
             Some(share * states.iter().map(lost).sum::<f64>())
         }),
     })
+}
+
+/// Rolling elements with the means of their forces; none without a state.
+fn mean_zone(law: &RollingBearing, states: &[&RollingState]) -> Vec<ElementLoad> {
+    let mut zones = states.iter().map(|s| law.load_zone(&s.displacement.fixed_rows::<5>(0).into_owned()));
+    let Some(mut mean) = zones.next() else { return Vec::new() };
+    zones.for_each(|zone| mean.iter_mut().zip(zone).for_each(|(sum, own)| sum.force += own.force));
+    mean.iter_mut().for_each(|own| own.force /= states.len() as f64);
+    mean
 }
 
 /// One note on all bearings whose inside or rating is estimated; none without.

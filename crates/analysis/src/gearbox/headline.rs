@@ -343,7 +343,7 @@ impl GearboxResult {
                     asked.then(|| self.meshes.iter().map(of).collect())?
                 }
                 Of::BearingsRated(own) => {
-                    let of = |b: &BearingLoad| b.rolling.and_then(|r| r.life).as_ref().and_then(own);
+                    let of = |b: &BearingLoad| b.rolling.as_ref().and_then(|r| r.life.as_ref()).and_then(own);
                     self.rates.lives.then(|| self.bearings.iter().map(of).collect())?
                 }
                 Of::MeshesVibrating(own) => {

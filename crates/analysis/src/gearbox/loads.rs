@@ -1,6 +1,6 @@
 //! Loads of teeth and bearings caused by the torques of a gearbox, from equilibrium alone; checked before the solution.
 
-use gearbox::{GearMesh, GearboxError, Operation, Structure, Train, mesh_torques};
+use gearbox::{GearMesh, GearboxError, Operation, Structure, Train, even_mesh_torques, mesh_torques};
 use scene::{
     Driver, Scene,
     gearbox::{Gearbox, GearboxBearing, RollingKind},
@@ -36,9 +36,13 @@ impl Loaded<'_> {
     pub fn judge(&self) -> Result<Vec<answer::Remark>, AnalysisError> {
         let mut said = Vec::new();
         let torques = mesh_torques(self.structure, self.meshes, self.operation);
+        let even = match &torques {
+            Some(_) => None,
+            None => even_mesh_torques(self.structure, self.meshes, self.operation),
+        };
         for (i, (mesh, scene)) in self.meshes.iter().zip(self.scenes).enumerate() {
             let mut scene = scene.clone();
-            if let Some(all) = &torques {
+            if let Some(all) = torques.as_ref().or(even.as_ref()) {
                 let driven = usize::from(scene.operation.driver == Driver::Pinion);
                 super::rating::check((self.file, self.train), (i, mesh), &scene, all[i][driven].abs())?;
                 scene.operation.torque_nm = 1e-3 * all[i][driven].abs();

@@ -84,7 +84,7 @@ impl GearboxResult {
             None => (mesh.normal_force == 0.0).then_some(0.0),
         };
         let meshes = self.meshes.iter().map(loss).sum::<Option<f64>>()?;
-        let bearings: f64 = self.bearings.iter().filter_map(|b| b.rolling?.loss_w).sum();
+        let bearings: f64 = self.bearings.iter().filter_map(|b| b.rolling.as_ref()?.loss_w).sum();
         (self.output_power_w > 0.0).then(|| self.output_power_w / (self.output_power_w + meshes + bearings))
     }
 }

@@ -197,11 +197,11 @@ fn a_spectrum_of_a_gearbox_adds_up_over_its_loads() {
             .iter()
             .zip(shares)
             .map(|(own, q)| {
-                let life = own.bearings[i].rolling.unwrap().life;
+                let life = own.bearings[i].rolling.as_ref().unwrap().life;
                 life.map_or(0.0, |life| q / life.rated_hours().unwrap())
             })
             .sum();
-        let life = bearing.rolling.unwrap().spectrum_life_h.unwrap();
+        let life = bearing.rolling.as_ref().unwrap().spectrum_life_h.unwrap();
         assert!((life * used - 1.0).abs() < 1e-9, "{}: {life} h, {used}", bearing.name);
     }
     let mut uneven = 0.0f64;

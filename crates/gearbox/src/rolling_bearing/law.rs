@@ -1,5 +1,7 @@
 //! All rows of a bearing as one law; forces are the gradient of a convex energy. Theory (97) to (100).
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Matrix6, Vector5};
 
 use super::{
@@ -30,6 +32,31 @@ impl LoadedRow {
             Self::Balls(row) => row.add(d, reply),
             Self::Rollers(row) => row.add(d, reply),
         }
+    }
+}
+
+/// Force on one rolling element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElementLoad {
+    /// Row, from 0.
+    pub row: usize,
+    /// Angle of its place, rad from +x towards +y.
+    pub angle: f64,
+    /// Force with which both rings press it, N: of a ball along its contact angle, of a roller across its axis.
+    pub force: f64,
+}
+
+impl ElementLoad {
+    /// Angle of the load zone of a bearing, rad: from the first loaded element to the last one, past all but the largest
+    /// gap; 2 pi where every place of a row has a loaded element.
+    pub fn zone(all: &[Self]) -> f64 {
+        let mut angles: Vec<f64> = all.iter().filter(|own| own.force > 0.0).map(|own| own.angle).collect();
+        angles.sort_unstable_by(f64::total_cmp);
+        let Some(&first) = angles.first() else { return 0.0 };
+        let next = angles.iter().skip(1).copied().chain([first + TAU]);
+        let gap = angles.iter().zip(next).map(|(one, next)| next - one).fold(0.0, f64::max);
+        let pitch = TAU / all.iter().filter(|own| own.row == all[0].row).count() as f64;
+        if gap < 1.5 * pitch { TAU } else { TAU - gap }
     }
 }
 
@@ -116,6 +143,24 @@ impl RollingBearing {
             self.rows.iter().for_each(|row| row.add(place, &mut reply));
             reply
         })
+    }
+
+    /// Forces of all rolling elements at displacements of the inner ring relative to the seat of the outer ring, row by
+    /// row: the load zone. Elements stand where the law has them, element j of n at 2 pi j/n.
+    pub fn load_zone(&self, displacements: &Vector5<f64>) -> Vec<ElementLoad> {
+        let place = self.settled(displacements).0;
+        let forces = |row: &LoadedRow| -> Vec<f64> {
+            match row {
+                LoadedRow::Balls(row) => row.forces(&place).collect(),
+                LoadedRow::Rollers(row) => row.element_forces(&place).collect(),
+            }
+        };
+        let of_row = |(row, own): (usize, &LoadedRow)| {
+            let forces = forces(own);
+            let pitch = TAU / forces.len() as f64;
+            forces.into_iter().enumerate().map(move |(j, force)| ElementLoad { row, angle: j as f64 * pitch, force })
+        };
+        self.rows.iter().enumerate().flat_map(of_row).collect()
     }
 
     /// Share of the basic reference rating life used by a million revolutions of the inner ring under a stationary

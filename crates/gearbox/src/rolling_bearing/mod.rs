@@ -37,7 +37,7 @@ pub use error::RollingBearingError;
 pub use friction::RollingFriction;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
 pub use hertz::PointContact;
-pub use law::RollingBearing;
+pub use law::{ElementLoad, RollingBearing};
 pub use life::LifeModification;
 pub use reply::RollingReply;
 pub use seat::AxialSeat;

@@ -72,6 +72,15 @@ impl RollerRow {
         (0..self.geometry.elements).map(of)
     }
 
+    /// Forces of all rollers at displacements of the inner ring, N: sums over their laminae.
+    pub fn element_forces(&self, d: &Vector5<f64>) -> impl Iterator<Item = f64> {
+        let of = move |j| {
+            let lamina = |k| self.stiffness * self.approach(j, k, d).1.max(0.0).powf(10.0 / 9.0);
+            (0..LAMINAE).map(lamina).sum()
+        };
+        (0..self.geometry.elements).map(of)
+    }
+
     /// Approach of the rings at lamina k of roller j, mm, and what the coordinates of the inner ring press it by.
     fn approach(&self, j: usize, k: usize, d: &Vector5<f64>) -> (Vector5<f64>, f64) {
         let lever = self.lever(j, k);

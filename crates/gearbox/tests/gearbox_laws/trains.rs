@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gearbox::{Disc, GearMesh, GearboxError, Structure, Torque, Train, mesh_torques};
+use gearbox::{Disc, GearMesh, GearboxError, Structure, Torque, Train, even_mesh_torques, mesh_torques};
 use geometry::{Driver, Sense};
 
 use crate::pairs::{operation, pair, shaft, two_stages};
@@ -160,6 +160,16 @@ fn torques_of_meshes_go_by_the_teeth() {
             assert!((a / b - 1.0).abs() < 1e-14, "{a} for {b} N mm");
         }
     }
+    let loaded = operation(&structure, 4, Sense::Ccw, vec![load]);
+    let near = |found: &[[f64; 2]], wanted: &[[f64; 2]]| {
+        let pairs = found.iter().flatten().zip(wanted.iter().flatten());
+        pairs.for_each(|(a, b)| assert!((a / b - 1.0).abs() < 1e-12, "{a} for {b} N mm"));
+    };
+    near(&even_mesh_torques(&structure, &meshes, &loaded).unwrap(), &found);
     let ring = [meshes.clone(), vec![meshes[0].clone()]].concat();
-    assert_eq!(mesh_torques(&structure, &ring, &operation(&structure, 4, Sense::Ccw, vec![load])), None);
+    assert_eq!(mesh_torques(&structure, &ring, &loaded), None);
+    let half = found[0].map(|t| 0.5 * t);
+    near(&even_mesh_torques(&structure, &ring, &loaded).unwrap(), &[half, found[1], half]);
+    // No teeth reach the shaft that is loaded.
+    assert_eq!(even_mesh_torques(&structure, &meshes[..1], &loaded), None);
 }

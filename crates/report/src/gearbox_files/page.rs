@@ -48,6 +48,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     rated.flat_map(|(name, own)| rating::parts(own, Some(name))).for_each(|part| page.push(part));
     page.push(shafts(file, result));
     page.push(bearings(file, result));
+    page.push(load_zones(result));
     page.push(outputs(result));
     page.push(patterns(result));
     result.accuracy.iter().flat_map(how_exact).for_each(|part| page.push(part));
@@ -224,7 +225,7 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
             row.push(Cell::number(life(b).and_then(|own| own.modified_hours()), 0));
         }
         if under_spectrum {
-            row.push(Cell::number(b.rolling.and_then(|own| own.spectrum_life_h), 0));
+            row.push(Cell::number(b.rolling.as_ref().and_then(|own| own.spectrum_life_h), 0));
         }
         row
     });
@@ -243,12 +244,33 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     Part::new("Bearings").closing().grid(Grid::new(head).rows(rows)).note(note)
 }
 
+/// Forces of the rolling elements of every bearing that has some.
+fn load_zones(result: &GearboxResult) -> Part {
+    let of_bearing = |b: &BearingLoad| -> Vec<Curve> {
+        let zone = b.rolling.as_ref().map_or(&[][..], |own| &own.zone);
+        let rows = zone.iter().map(|own| own.row + 1).max().unwrap_or(0);
+        let of_row = |row: usize| {
+            let label = if rows == 1 { b.name.clone() } else { format!("{}, row {}", b.name, row + 1) };
+            let own = zone.iter().filter(|own| own.row == row).map(|own| (own.angle.to_degrees(), own.force));
+            let points: Vec<(f64, f64)> = own.collect();
+            // Element 0 stands at both ends.
+            let end = points.first().map(|first| (first.0 + 360.0, first.1));
+            Curve { label, points: points.into_iter().chain(end).collect() }
+        };
+        (0..rows).map(of_row).collect()
+    };
+    let curves: Vec<Curve> = result.bearings.iter().flat_map(of_bearing).collect();
+    let angle = "angle from +x towards +y in deg";
+    let chart = LineChart::new("Load zones", [angle, "mean force of a rolling element in N"], &curves, true);
+    chart.and_then(|own| own.figure()).map_or_else(Part::more, |own| Part::more().figures([own]))
+}
+
 fn loss(bearing: &BearingLoad) -> Option<f64> {
-    bearing.rolling.and_then(|rolling| rolling.loss_w)
+    bearing.rolling.as_ref().and_then(|rolling| rolling.loss_w)
 }
 
 fn life(bearing: &BearingLoad) -> Option<BearingLife> {
-    bearing.rolling.and_then(|rolling| rolling.life)
+    bearing.rolling.as_ref().and_then(|rolling| rolling.life)
 }
 
 /// Contact pattern of every mesh.

@@ -7,7 +7,10 @@ use analysis::gearbox::{BearingLoad, GearboxResult, MeshResult, RollingLoad, Roo
 use analysis::pair_rating::RatingHeadline;
 use answer::keyed;
 use described::Key;
-use gearbox::{LoadSharing, PlanetShare, rolling_bearing::RollingElements};
+use gearbox::{
+    LoadSharing, PlanetShare,
+    rolling_bearing::{ElementLoad, RollingElements},
+};
 use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxGear, GearboxPlanets, GearboxVibration, PlanetMesh};
 use serde::Serialize;
@@ -181,6 +184,12 @@ described::described! {
         min_loaded_elements: usize,
         /// largest number of loaded rolling elements
         max_loaded_elements: usize,
+        /// rolling elements whose force is not zero in the mean of all positions: from the first to the last of them, past no larger gap
+        load_zone_deg: f64,
+        /// angle of each rolling element from +x towards +y, row by row
+        element_angles_deg: Vec<f64>,
+        /// mean force of each of them over all positions
+        element_mean_forces_n: Vec<f64>,
         /// force on the most loaded rolling element
         max_element_force_n: f64,
         /// contact pressure of the most loaded rolling element; a remark tells of more than the static rating of ISO 76, 4200 MPa of balls and 4000 MPa of rollers
@@ -409,6 +418,9 @@ fn rolling(load: &RollingLoad) -> RollingSummary {
         elements: load.count,
         min_loaded_elements: load.loaded[0],
         max_loaded_elements: load.loaded[1],
+        load_zone_deg: ElementLoad::zone(&load.zone).to_degrees(),
+        element_angles_deg: load.zone.iter().map(|own| own.angle.to_degrees()).collect(),
+        element_mean_forces_n: load.zone.iter().map(|own| own.force).collect(),
         max_element_force_n: load.element_force,
         max_hertz_pressure_mpa: load.pressure,
         stiffness_n_mm_rad: load.stiffness,

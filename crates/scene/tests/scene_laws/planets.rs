@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use scene::{
-    SceneError, Setting,
-    gearbox::{Gearbox, GearboxBearing},
+    SceneError, Setting, Starter,
+    gearbox::{Gearbox, GearboxBearing, StageHeld, StageStarter},
 };
 
 fn file() -> PathBuf {
@@ -302,4 +302,43 @@ fn a_ring_is_fixed_in_space() {
         let error = Gearbox::parse(&text.replacen(from, to, 1), &file).map(|_| ()).expect_err(to);
         assert!(error.to_string().contains(said) && error.hint().is_some(), "{to}: {error}");
     }
+}
+
+/// A stage that is started from numbers of teeth is a gearbox whose planets mesh with sun and ring at one distance, without
+/// backlash but for the thinning of the teeth, and whose planets stand where teeth meet gaps, or it is told why not.
+#[test]
+fn started_stages_fit_together() {
+    let started = |teeth: [i32; 3], planets: usize, held: StageHeld, pair: Starter| {
+        let stage =
+            StageStarter { pair: Starter { teeth: [teeth[0], teeth[1]], ..pair }, ring_teeth: teeth[2], planets, held };
+        assert!(stage.most_planets().unwrap() >= planets);
+        stage.text("stage.toml").map(|text| Gearbox::parse(&text, "stage.toml".as_ref()).unwrap())
+    };
+    let spur = Starter { helix_deg: 0.0, ..Starter::default() };
+    let small = Starter { helix_deg: -18.0, module_mm: 0.7, face_width_mm: 7.3, ..Starter::default() };
+    let shifted = Starter { profile_shift: [0.4, 0.2], module_mm: 4.0, ..spur.clone() };
+    let (ring, carrier) = (StageHeld::Ring, StageHeld::Carrier);
+    let cases = [
+        ([21, 30, -81], 3, ring, spur.clone()),
+        ([24, 30, -84], 4, carrier, small),
+        ([18, 27, -73], 3, ring, shifted.clone()),
+        ([30, 19, -69], 5, ring, shifted),
+    ];
+    for (teeth, planets, held, pair) in cases {
+        let file = started(teeth, planets, held, pair.clone()).unwrap_or_else(|e| panic!("{teeth:?}: {e}"));
+        assert_eq!(file.meshes.len(), 2 * planets, "{teeth:?}");
+        let distances = file.meshes.iter().map(|mesh| mesh.scene.gear_pair().unwrap().centre_distance().abs());
+        let distances: Vec<f64> = distances.collect();
+        assert!(distances.iter().all(|a| (a / distances[0] - 1.0).abs() < 1e-9), "{teeth:?}: {distances:?}");
+        for mesh in &file.meshes {
+            let pair = mesh.scene.gear_pair().unwrap();
+            let free = mesh.scene.pinion.thickness_allowance_mm + mesh.scene.wheel.thickness_allowance_mm;
+            let backlash = pair.backlash();
+            assert!(backlash > 0.5 * free && backlash < 1.5 * free, "{teeth:?}: {backlash} mm of {free} mm");
+        }
+        assert_eq!(file.shafts.iter().any(|shaft| shaft.fixed), held == ring);
+        assert_eq!(file.torques[0].torque.abs(), 1e3 * pair.torque_nm);
+    }
+    let refused = started([21, 30, -60], 3, ring, spur).unwrap_err();
+    assert!(refused.to_string().contains("profile_shift"), "{refused}");
 }

@@ -64,7 +64,7 @@ pub(super) fn housing(s: &Source<'_>, table: &Spanned<RawHousing>, bearings: usi
         return Err(s.conflict(&rows.span(), "the housing is given twice", "give the matrix or the file, not both"));
     }
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
-    let unread = |e: std::io::Error| format!("{} cannot be read: {e}", path.display());
+    let unread = |e: std::io::Error| format!("\"{}\" cannot be read: {e}", path.display());
     let text =
         read_text(&path).map_err(|e| s.conflict(&word.span(), unread(e), "paths are relative to the gearbox file"))?;
     let name = raw.matrix.as_ref().map(|w| w.get_ref().as_str());
