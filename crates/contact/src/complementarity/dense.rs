@@ -4,7 +4,10 @@
 use std::ops::Range;
 
 use dyn_stack::MemBuffer;
-use faer::{MatRef, Par, linalg::lu::partial_pivoting as lu};
+use faer::{
+    MatRef, Par,
+    linalg::{cholesky::llt, lu::partial_pivoting as lu},
+};
 
 use super::{TOLERANCE, cholesky::padded, pivots::PIVOT_TOLERANCE};
 use crate::{ContactError, complementarity::opening::Opening, lanes};
@@ -78,6 +81,8 @@ pub struct DenseSolver {
     pub(super) slopes: Vec<f64>,
     pub(super) active: Vec<usize>,
     pub(super) order: Vec<usize>,
+    /// Force with which each row entered the active set last, N; 0 of those that have not entered.
+    pub(super) entered: Vec<f64>,
     pub(super) runs: Vec<Range<usize>>,
     pub(super) factor: Vec<f64>,
     pub(super) x: Vec<f64>,
@@ -109,6 +114,8 @@ const BLOCK_STEPS: usize = 24;
 /// what a step with it does. Tangents of bodies that are held are those of the last forces and want a factor of their own.
 const CLOSE: f64 = 1e-5;
 
+/// Force of a row that comes back, over the one that it came with before.
+const RETURNS_WITH: f64 = 0.1;
 /// Force of a row that enters, over its overlap and its own stiffness: it shares its approach with some neighbours.
 const ENTERS_WITH: f64 = 0.2;
 
@@ -122,6 +129,7 @@ impl DenseSolver {
     /// Allocates memory for up to `most` rows.
     pub fn new(most: usize) -> Self {
         let lu = lu::factor::lu_in_place_scratch::<usize, f64>(most, most, Par::Seq, Default::default());
+        let llt = llt::factor::cholesky_in_place_scratch::<f64>(most, Par::Seq, Default::default());
         let solve = lu::solve::solve_in_place_scratch::<usize, f64>(most, RIGID, Par::Seq);
         Self {
             forces: Vec::with_capacity(most),
@@ -130,6 +138,7 @@ impl DenseSolver {
             slopes: Vec::with_capacity(most),
             active: Vec::with_capacity(most),
             order: Vec::with_capacity(most),
+            entered: Vec::with_capacity(most),
             runs: Vec::with_capacity(most),
             factor: Vec::with_capacity(padded(most).pow(2)),
             x: Vec::with_capacity(RIGID * most),
@@ -138,7 +147,7 @@ impl DenseSolver {
             turned: Vec::with_capacity(most),
             rest: Vec::with_capacity(most),
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
-            scratch: MemBuffer::new(lu.or(solve)),
+            scratch: MemBuffer::new(lu.or(solve).or(llt)),
             arch: pulp::Arch::new(),
             symmetric: true,
             factored: false,
@@ -229,7 +238,7 @@ impl DenseSolver {
         accuracy: f64,
     ) -> Result<(), ContactError> {
         let (n, turns) = (problem.gaps.len(), problem.balance != Balance::Held);
-        for list in [&mut self.openings, &mut self.approach, &mut self.slopes] {
+        for list in [&mut self.openings, &mut self.approach, &mut self.slopes, &mut self.entered] {
             list.clear();
             list.resize(n, 0.0);
         }
@@ -369,10 +378,11 @@ impl DenseSolver {
         );
     }
 
-    /// Rows that pull leave, rows that overlap enter; whether any did.
+    /// Rows that pull leave, rows that overlap enter; whether any did. The tangent of a local approach at too large a force
+    /// makes a row pull that ought to press lightly: one that comes back does so with less.
     fn change_sides(&mut self, problem: &DenseProblem<'_>) -> bool {
         let scale = self.scale(problem);
-        let Self { forces, active, openings, order, rotation, factored, .. } = self;
+        let Self { forces, active, openings, order, entered, rotation, factored, .. } = self;
         let largest = forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
         order.clear();
         let (mut changed, mut before) = (false, active.iter().peekable());
@@ -391,7 +401,9 @@ impl DenseSolver {
                 order.push(i);
                 changed = true;
                 // Its tangent is that of a force that is not far off.
-                forces[i] = -ENTERS_WITH * gap / problem.compliance[(i, i)].max(f64::MIN_POSITIVE);
+                let force = -ENTERS_WITH * gap / problem.compliance[(i, i)].max(f64::MIN_POSITIVE);
+                forces[i] = if entered[i] > 0.0 { force.min(RETURNS_WITH * entered[i]) } else { force };
+                entered[i] = forces[i];
             }
         }
         std::mem::swap(active, order);

@@ -3,7 +3,7 @@
 use dyn_stack::MemStack;
 use faer::{
     MatMut, MatRef, Par,
-    linalg::{lu::partial_pivoting as lu, triangular_solve},
+    linalg::{cholesky::llt, lu::partial_pivoting as lu, triangular_solve},
     perm::PermRef,
 };
 
@@ -14,6 +14,8 @@ use super::{
 };
 use crate::{ContactError, lanes};
 
+/// Active rows from which on a factor in blocks for large orders is the faster one: those of joined contacts.
+const LARGE: usize = 256;
 /// Right-hand sides up to which each is solved for by itself.
 const FEW: usize = 2;
 
@@ -52,7 +54,13 @@ impl DenseSolver {
             entries.fill(0.0);
             entries[a] = 1.0;
         }
-        if self.symmetric {
+        if self.symmetric && m >= LARGE {
+            let matrix = MatMut::from_column_major_slice_with_stride_mut(&mut self.factor, m, m, order);
+            let stack = MemStack::new(&mut self.scratch);
+            let factored =
+                llt::factor::cholesky_in_place(matrix, Default::default(), Par::Seq, stack, Default::default());
+            factored.map_err(|_| ContactError::NotPositiveDefinite { points: m })?;
+        } else if self.symmetric {
             let factored = lanes::run(self.arch, Cholesky { matrix: &mut self.factor, order });
             factored.then_some(()).ok_or(ContactError::NotPositiveDefinite { points: m })?;
         } else {
