@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use geometry::{Driver, Gear, GearPair};
-use ltca::StaticHistory;
+use ltca::{StaticHistory, StaticOptions};
 use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
 use testing::{Case, planet_in_ring, quadratic};
 
@@ -103,4 +103,39 @@ fn the_ring_drives_too() {
     }
     let mean = |h: &StaticHistory| h.positions.iter().map(|p| p.transmission_error).sum::<f64>() / 3.0;
     assert!((mean(&first) / mean(&back) - 1.0).abs() < 0.02, "{} and {}", mean(&first), mean(&back));
+}
+
+/// Below the loaded flank a root is pulled, behind it pressed, in pinion and ring, in the fillet and not on the flank; the whole ring and a sector of
+/// five teeth, reduced gears and full ones have one root stress.
+#[test]
+fn roots_of_a_ring_are_pulled_below_the_load() {
+    let stressed = |case: &Case| StaticOptions { root_stress: true, ..case.slice_options() };
+    let [whole, five] = [Extent::Periodic, Extent::Sector(5)].map(|extent| case(20.0, extent));
+    let history = whole.reduced(stressed(&whole)).run(3, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    let side = geometry::Side::Left;
+    for p in &history.positions {
+        let heaviest = p.pairs.iter().max_by(|a, b| a.normal_force.total_cmp(&b.normal_force)).unwrap();
+        for (gear, tooth) in [heaviest.pinion_tooth, heaviest.wheel_tooth].into_iter().enumerate() {
+            let of = |side| *p.root_stress[gear].iter().find(|f| (f.tooth, f.side) == (tooth, side)).unwrap();
+            let (pulled, pressed) = (of(side), of(side.opposite()));
+            let at = format!("phase {}, gear {gear}, tooth {tooth}", p.mesh_phase);
+            println!("{at}: {:.2} and {:.2} MPa", pulled.max_principal.stress, pressed.min_principal.stress);
+            assert!(pulled.max_principal.stress > 1.5 * pressed.max_principal.stress, "{at}: {pulled:?} {pressed:?}");
+            assert!(-pressed.min_principal.stress > 1.5 * pressed.max_principal.stress, "{at}: {pressed:?}");
+            let exact = [&whole.pair.pinion, &whole.pair.wheel][gear];
+            let mut ends = [exact.root_radius().abs(), exact.form_radius().abs()];
+            ends.sort_by(f64::total_cmp);
+            for peak in [pulled.max_principal, pressed.min_principal] {
+                assert!(ends[0] - 1e-3 < peak.radius && peak.radius < ends[1] + 1e-3, "{at}: {peak:?}, {ends:?}");
+            }
+        }
+    }
+    let reduced = five.reduced(stressed(&five)).run(1, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    let full = five.full(stressed(&five)).run(1, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    for gear in 0..2 {
+        for (a, b) in reduced.positions[0].root_stress[gear].iter().zip(&full.positions[0].root_stress[gear]) {
+            let [a, b] = [a, b].map(|f| f.max_principal.stress);
+            assert!((a - b).abs() < 1e-6 * a.abs().max(1.0), "gear {gear}: reduced {a} MPa, full {b} MPa");
+        }
+    }
 }
