@@ -81,7 +81,8 @@ impl Cutter {
         Self::rolling_on([own, ring], m / beta.cos(), alpha_t, (data, shaper))
     }
 
-    /// The cutter and the ring in the normal section: their virtual spur gears have z / (cos^2 beta_b cos beta) teeth.
+    /// The cutter and the ring in the normal section: their virtual spur gears have z / (cos^2 beta_b cos beta) teeth. The rounding keeps its
+    /// radius, but is no larger than the tip, which is narrower there.
     ///
     /// # Errors
     /// [`GeometryError::OutOfRange`] if they do not mesh.
@@ -89,7 +90,9 @@ impl Cutter {
         let sin_base = data.helix_angle.sin() * data.normal_pressure_angle.cos();
         let shrunk = (1.0 - sin_base * sin_base) * data.helix_angle.cos();
         let teeth = [shaper.teeth, data.teeth].map(|z| f64::from(z) / shrunk);
-        Self::rolling_on(teeth, data.normal_module, data.normal_pressure_angle, (data, shaper))
+        let cutter = Self::rolling_on(teeth, data.normal_module, data.normal_pressure_angle, (data, shaper))?;
+        let rounding = cutter.rounding.min(cutter.largest_rounding() * cutter.normal_module);
+        Ok(Self { rounding, ..cutter })
     }
 
     /// A cutter and a ring of so many teeth; `module` (mm) and pressure angle `alpha_t` (rad) are those of the section in which they roll on each
