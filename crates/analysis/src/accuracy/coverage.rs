@@ -81,10 +81,7 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
     for (name, gear, exact) in
         [("pinion", scene.gears()[0], &result.pair.pinion), ("wheel", scene.gears()[1], &result.pair.wheel)]
     {
-        let data = exact.data();
-        let root = module
-            * (0.5 * f64::from(gear.teeth) / gear.helix_angle().cos() + data.profile_shift - data.dedendum_coefficient);
-        let rim = (root - 0.5 * gear.bore_diameter_mm) / module;
+        let rim = (exact.root_radius() - 0.5 * exact.data().bore_diameter) / module;
         check(
             &format!("teeth of the {name}"),
             f64::from(gear.teeth),
