@@ -97,7 +97,7 @@ impl MeasuredPair {
             scene::Driver::Pinion => &self.pair.wheel,
             scene::Driver::Wheel => &self.pair.pinion,
         };
-        self.scene.operation.torque() / driven.base_radius() / stiffness
+        self.scene.operation.torque() / driven.base_radius().abs() / stiffness
     }
 
     /// All numbers on a mesh.

@@ -13,6 +13,8 @@ const LEAST_CONTACT_RATIO: f64 = 1.05;
 
 /// Seed from which on loads are light as well, and flanks as they are ground.
 pub const AS_GROUND: u64 = 100;
+/// Seed from which on a pinion turns in a ring.
+pub const RINGS: u64 = 1000;
 /// Hertz pressures from there on, MPa.
 const GROUND_PRESSURES: [f64; 2] = [200.0, 1800.0];
 /// Amounts of what is ground off a flank beside tip relief: name, um, and whether it has a sign.
@@ -28,7 +30,9 @@ const END_RELIEF: [[f64; 2]; 2] = [[3.0, 20.0], [0.05, 0.25]];
 /// Scene number `index` of a seed: z 12..120, beta 0..40 deg, b/m_n 3..25, x -0.4..0.8, alpha_n 15..28 deg, m_n 1..8 mm,
 /// rims of 0.8 modules to solid bodies, half of the pairs with tip relief, crowning or misalignment, Hertz pressure at
 /// the pitch point 500..1800 MPa. From [`AS_GROUND`] on pressures begin at 200 MPa, and flanks are as they are ground: either
-/// gear with its own tip relief, crownings, slopes and end reliefs.
+/// gear with its own tip relief, crownings, slopes and end reliefs. From [`RINGS`] on pairs are internal, with flanks as those of
+/// the first seeds: pinions of 12..60 teeth in rings of 12..100 teeth more, beta 0..30 deg, b/m_n 3..10, addenda of 0.75..1 modules, rims of
+/// the ring of 1.2..10 modules.
 ///
 /// # Panics
 /// When a thousand draws make no pair, which no seed does.
@@ -37,7 +41,11 @@ pub fn random_scene(seed: u64, index: u64) -> Scene {
     let mut random = Random::new(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ index.wrapping_mul(0xd134_2543_de82_ef95));
     let drawn = (0..DRAWS).find_map(|_| {
         let draw = Draw::new(&mut random);
-        if seed < AS_GROUND { draw.scene(index) } else { draw.with_ground_flanks(&mut random).scene(index) }
+        match seed {
+            0..AS_GROUND => draw.scene(index),
+            AS_GROUND..RINGS => draw.with_ground_flanks(&mut random).scene(index),
+            _ => draw.in_a_ring(&mut random).scene(index),
+        }
     });
     drawn.unwrap_or_else(|| panic!("seed {seed}, index {index}: no pair in {DRAWS} draws"))
 }
@@ -60,6 +68,8 @@ struct Draw {
     /// um over the face width.
     misalignment: Option<f64>,
     pressure_mpa: f64,
+    /// Addendum of an internal pair, modules.
+    ring_addendum: Option<f64>,
     /// What is ground off the flanks of pinion and wheel beside the others.
     ground: Vec<(String, f64)>,
 }
@@ -91,7 +101,23 @@ impl Draw {
             crowning,
             misalignment,
             pressure_mpa,
+            ring_addendum: None,
             ground: Vec::new(),
+        }
+    }
+
+    /// A pinion in a ring, with the flanks and the load of these gears.
+    fn in_a_ring(self, random: &mut Random) -> Self {
+        let log = |r: &mut Random, low: f64, high: f64| r.between(low.ln(), high.ln()).exp();
+        let pinion = log(random, 12.0, 61.0) as u32;
+        Self {
+            teeth: [pinion, pinion + log(random, 12.0, 101.0) as u32],
+            helix_angle_deg: 0.75 * self.helix_angle_deg,
+            width: self.module * log(random, 3.0, 10.0),
+            shift: [random.between(-0.2, 0.6), random.between(-0.3, 0.4)],
+            rim: [self.rim[0], log(random, 1.2, 10.0)],
+            ring_addendum: Some(random.between(0.75, 1.0)),
+            ..self
         }
     }
 
@@ -137,7 +163,7 @@ impl Draw {
             let root = self.module * (0.5 * f64::from(self.teeth[i]) / cos + self.shift[i] - 1.25);
             2.0 * (root - self.rim[i] * self.module).max(0.25 * root)
         };
-        Scene::builder()
+        let scene = Scene::builder()
             .pinion(self.teeth[0], self.helix_angle_deg)
             .wheel(self.teeth[1])
             .normal_module_mm(self.module)
@@ -147,7 +173,13 @@ impl Draw {
             .set("pinion.profile_shift", self.shift[0])
             .set("wheel.profile_shift", self.shift[1])
             .set("pinion.bore_diameter_mm", bore(0))
-            .set("wheel.bore_diameter_mm", bore(1))
+            .set("wheel.bore_diameter_mm", bore(1));
+        let Some(addendum) = self.ring_addendum else { return scene };
+        let root = self.module * (0.5 * f64::from(self.teeth[1]) / cos - self.shift[1] + 1.25);
+        scene
+            .set("wheel.teeth", -i64::from(self.teeth[1]))
+            .set("wheel.bore_diameter_mm", 2.0 * (root + self.rim[1] * self.module))
+            .set("pair.addendum_coefficient", addendum)
     }
 
     fn loaded(&self, pair: &GearPair, index: u64) -> Result<Scene, SceneError> {
@@ -183,5 +215,5 @@ pub fn torque_of_pressure(pair: &GearPair, pressure_mpa: f64) -> f64 {
     let [r1, r2] = pair.working_radii().map(|r| r * pair.working_pressure_angle().sin());
     let radius = r1 * r2 / ((r1 + r2) * pair.base_helix_angle().cos());
     let line_load = pressure_mpa.powi(2) * PI * radius / contact_modulus;
-    line_load * pair.mean_contact_line_length() * pair.base_helix_angle().cos() * pair.wheel.base_radius()
+    line_load * pair.mean_contact_line_length() * pair.base_helix_angle().cos() * pair.wheel.base_radius().abs()
 }

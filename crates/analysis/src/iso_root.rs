@@ -47,7 +47,7 @@ described::described! {
         pub bending_lever_mm: f64,
         /// rho_F of the virtual spur gear
         pub fillet_radius_mm: f64,
-        /// rim between bore and root circle over tooth height; the standard ends at 0.5
+        /// rim between bore and root circle over tooth height; the standard ends at 0.5, of rings at 1.75 modules
         pub rim_over_tooth_height: f64,
     }
 }

@@ -151,7 +151,10 @@ impl RatingHeadline {
         let Some(rating) = &scene.rating else { return Ok(None) };
         let Some(face_load) = rating.face_load_factor.or(solved.face_load_factor) else { return Ok(None) };
         let loads = spectrum.map_or(&[][..], |(_, loads)| loads);
-        let (standard, spectrum, oiled) = rated((scene, rating), pair, face_load, (Some(solved), spectrum))?;
+        let (mut standard, spectrum, oiled) = rated((scene, rating), pair, face_load, (Some(solved), spectrum))?;
+        standard
+            .outside
+            .extend(oiled.micropitting.as_ref().and_then(|_| rating::micropitting_scope(pair.wheel.signed_teeth())));
         let gears = standard.gears();
         let least = |of: fn(&rating::GearRating) -> f64| {
             let [pinion, wheel] = gears.map(of);
@@ -352,7 +355,7 @@ fn oiled(
     }
     let Some(solved) = solved else { return Ok(Oiled { scuffing, ..Oiled::default() }) };
     let rolling = Rolling::new(&pair.geometry, pair.pinion_speed_rpm);
-    let turning = scene.pinion_speed().abs() * [1.0, 1.0 / pair.geometry.ratio()][input.driver];
+    let turning = scene.pinion_speed().abs() * [1.0, 1.0 / pair.geometry.ratio().abs()][input.driver];
     let power_w = 1e-3 * turning * solved.moments[input.driver] / solved.positions.max(1) as f64;
     let places = solved.pressed.clone();
     let solved = SolvedContact::new(input.lubrication.clone(), rolling, places, solved.positions, power_w);

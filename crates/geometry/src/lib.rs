@@ -39,6 +39,7 @@ pub use modification::{FlankModification, GearModifications, ModifiedFlank};
 pub use pair::GearPair;
 pub use profile::TransverseProfile;
 pub use rotation::{Driver, Sense};
+pub use shaper::ShapedRoot;
 pub use sheet::{Balls, GearSheet, GeometrySheet, PathPoint, RingSheet, Span};
 
 /// Points and vectors, mm.

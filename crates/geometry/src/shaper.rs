@@ -8,6 +8,35 @@ use crate::internal_mesh::InternalMesh;
 use crate::roots::{bisect, inverse_involute};
 use crate::{GearData, GeometryError, Shaper, involute};
 
+/// Root of a ring's tooth in its normal section, on the virtual spur gear, where its fillet has a certain tangent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShapedRoot {
+    /// Chord between the points of both fillets, mm.
+    pub chord: f64,
+    /// Distance of the chord from the axis of the virtual gear, mm; negative, as radii of rings.
+    pub height: f64,
+    /// Radius of curvature of the fillet there, mm.
+    pub fillet_radius: f64,
+}
+
+impl ShapedRoot {
+    /// The root of a ring where the tangent makes `angle` (rad) with the tooth's centre line, or at the end of the fillet if it is steeper
+    /// there. `None` of a gear that no shaper cuts, and where the virtual cutter does not mesh.
+    ///
+    /// The virtual gears of ring and cutter roll on each other as the real ones do; both have z/(cos^2 beta_b cos beta) teeth. Source: ISO
+    /// 6336-3, clause on the tooth form factor of gears made by shapers (virtual gears), evaluated on the exact envelope.
+    pub fn at_tangent(data: &GearData, angle: f64) -> Option<Self> {
+        let cutter = Cutter::in_normal_section(data, data.shaper?).ok()?;
+        let (_, end) = cutter.end_of_fillet().ok()?;
+        let half_pitch = -PI / cutter.teeth[1];
+        let slope = |theta: f64| cutter.tangent(theta) - half_pitch - angle;
+        let theta = if slope(end) >= 0.0 { end } else { bisect(0.0, end, slope) };
+        let (radius, space) = cutter.generated(theta);
+        let (sin, cos) = (half_pitch - space).sin_cos();
+        Some(Self { chord: 2.0 * radius * sin, height: radius * cos, fillet_radius: cutter.fillet_radius(theta) })
+    }
+}
+
 /// A cutter at the depth at which it finishes its ring; magnitudes, mm and rad.
 ///
 /// ```text
@@ -49,12 +78,38 @@ impl Cutter {
             return refused("profile shift of the shaper", shaper.profile_shift, "-3 to 3");
         }
         let alpha_t = (alpha.tan() / beta.cos()).atan();
+        Self::rolling_on([own, ring], m / beta.cos(), alpha_t, (data, shaper))
+    }
+
+    /// The cutter and the ring in the normal section: their virtual spur gears have z / (cos^2 beta_b cos beta) teeth. The rounding keeps its
+    /// radius, but is no larger than the tip, which is narrower there.
+    ///
+    /// # Errors
+    /// [`GeometryError::OutOfRange`] if they do not mesh.
+    pub fn in_normal_section(data: &GearData, shaper: Shaper) -> Result<Self, GeometryError> {
+        let sin_base = data.helix_angle.sin() * data.normal_pressure_angle.cos();
+        let shrunk = (1.0 - sin_base * sin_base) * data.helix_angle.cos();
+        let teeth = [shaper.teeth, data.teeth].map(|z| f64::from(z) / shrunk);
+        let cutter = Self::rolling_on(teeth, data.normal_module, data.normal_pressure_angle, (data, shaper))?;
+        let rounding = cutter.rounding.min(cutter.largest_rounding() * cutter.normal_module);
+        Ok(Self { rounding, ..cutter })
+    }
+
+    /// A cutter and a ring of so many teeth; `module` (mm) and pressure angle `alpha_t` (rad) are those of the section in which they roll on each
+    /// other.
+    fn rolling_on(
+        [own, ring]: [f64; 2],
+        module: f64,
+        alpha_t: f64,
+        (data, shaper): (&GearData, Shaper),
+    ) -> Result<Self, GeometryError> {
+        let (m, alpha) = (data.normal_module, data.normal_pressure_angle);
+        let refused = |name, value, expected| Err(GeometryError::OutOfRange { name, value, expected });
         let sum = data.profile_shift + shaper.profile_shift;
         let working = involute(alpha_t) + 2.0 * alpha.tan() * sum / (own - ring);
         let Some(pressure_angle) = inverse_involute(working) else {
             return refused("profile shifts of ring and shaper together", sum, "small enough that they mesh");
         };
-        let module = m / beta.cos();
         let base = [own, ring].map(|z| 0.5 * module * z * alpha_t.cos());
         let distance = (base[1] - base[0]) / pressure_angle.cos();
         let root_radius = 0.5 * module * ring + m * (data.dedendum_coefficient - data.profile_shift);
@@ -141,17 +196,37 @@ impl Cutter {
         Ok((roll, FRAC_PI_2 - (along / self.base[0]).atan()))
     }
 
+    /// Radius of curvature (mm) of the fillet at `theta`: of the path of the rounding's centre by the equation of Euler and Savary, and the rounding.
+    ///
+    /// ```text
+    /// rho_F = rho + q^2/(j - q),   j = D cos(normal - pitch point),   1/D = 1/r_w0 - 1/r_w2
+    /// ```
+    /// q is the distance from the centre of the rounding to the pitch point along the normal, below zero where the centre is outside of the
+    /// cutter's pitch circle.
+    pub fn fillet_radius(&self, theta: f64) -> f64 {
+        let (normal, turned, _) = self.rolling(theta);
+        let [own, ring] = self.base.map(|r| r / self.pressure_angle.cos());
+        let inflection = own * ring / (ring - own) * (normal - turned).cos();
+        let reach = self.reach(theta);
+        self.rounding + reach * reach / (inflection - reach)
+    }
+
+    /// Distance (mm) from the centre of the rounding to the cutter's pitch circle along the rounding's normal at `theta`.
+    fn reach(&self, theta: f64) -> f64 {
+        let (radius, ..) = self.centre(self.rounding);
+        let pitch_radius = self.base[0] / self.pressure_angle.cos();
+        // Of the two points of the circle on this line the one that is further on.
+        let along = radius * theta.cos();
+        (along * along - radius * radius + pitch_radius * pitch_radius).max(0.0).sqrt() - along
+    }
+
     /// Direction of the rounding's normal at `theta`, and direction of the point of the cutter's pitch circle that it passes through, rad from the tooth's centre line, with the point of the rounding, mm.
     fn rolling(&self, theta: f64) -> (f64, f64, [f64; 2]) {
         let (radius, angle, _) = self.centre(self.rounding);
         let ([sin, cos], normal) = ([angle.sin(), angle.cos()], angle + theta);
         let (across, up) = normal.sin_cos();
-        let pitch_radius = self.base[0] / self.pressure_angle.cos();
-        // The line from the centre of the rounding along its normal meets the pitch circle: the point that is further on.
-        let along = radius * theta.cos();
-        let reach = (along * along - radius * radius + pitch_radius * pitch_radius).max(0.0).sqrt() - along;
         let at = |t: f64| [radius * cos + t * up, radius * sin + t * across];
-        let [x, y] = at(reach);
+        let [x, y] = at(self.reach(theta));
         (normal, y.atan2(x), at(self.rounding))
     }
 

@@ -59,7 +59,7 @@ pub use local_damage::{FlankPlace, LocalDamage, SolvedStress};
 pub use lubricant::{Lubricant, LubricantBase, Lubricants};
 pub use lubrication::{Lubrication, LubricationMethod};
 pub use material::{Material, MaterialGroup, Materials};
-pub use outside::Outside;
+pub use outside::{Outside, micropitting_scope};
 pub use pitting::{FlankFactors, FlankSurface, PittingFactors, pitting_curve, pitting_factors};
 pub use rolling::{Rolling, RollingPlace};
 pub use scuffing::{FlashRating, IntegralRating, ScuffingInput, ScuffingRating, scuffing_rating};

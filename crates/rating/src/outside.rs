@@ -17,6 +17,13 @@ described::described! {
     }
 }
 
+/// Micropitting of a pair whose wheel has so many teeth z_2, below 0 for an internal one: ISO/TS 6336-22 is for external gears; its
+/// formulas need curvatures and speeds alone.
+pub fn micropitting_scope(wheel_teeth: f64) -> Option<Outside> {
+    let scope = "ISO/TS 6336-22, clause 1";
+    Outside::unless("z_2 in micropitting", wheel_teeth, [1.0, f64::INFINITY], "external gears, above 0", scope)
+}
+
 impl Outside {
     /// Told where `value` is not within `low..=high`.
     pub(crate) fn unless(

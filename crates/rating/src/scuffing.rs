@@ -252,7 +252,8 @@ impl<'a> Path<'a> {
         let line = geometry.centre_distance * geometry.working_pressure_angle.sin();
         let [start, end] = geometry.path_of_contact;
         positive("the radius of curvature of the pinion at the start of the path of contact in mm", start, FLASH)?;
-        positive("the radius of curvature of the wheel at the end of the path of contact in mm", line - end, FLASH)?;
+        let of_wheel = geometry.sign() * (line - end);
+        positive("the radius of curvature of the wheel at the end of the path of contact in mm", of_wheel, FLASH)?;
         positive("the length of the path of contact in mm", end - start, FLASH)?;
         let ends = geometry.path_of_contact.map(|radius| radius / geometry.pitch_radii()[0] - 1.0);
         let pitch = 2.0 * PI / (f64::from(geometry.teeth[0]) * geometry.working_pressure_angle.tan());
@@ -286,7 +287,7 @@ impl<'a> Path<'a> {
         buttress * (wide / eps_alpha + (1.0 - wide) * spur)
     }
 
-    /// Transverse radii of curvature at a place, mm.
+    /// Transverse radii of curvature at a place, mm, negative where the flank is hollow.
     fn radii(&self, gamma: f64) -> [f64; 2] {
         let [one, two] = self.geometry.pitch_radii();
         [one * (1.0 + gamma), two * (1.0 - gamma / self.geometry.ratio())]
@@ -309,7 +310,7 @@ impl<'a> Path<'a> {
 /// mu       = 0.06 [X_Gamma w_Bt/(v_t rho_nC)]^0.2 X_L R_a^0.25,    v_t speed of the working pitch circle
 /// X_J      = 1 + (C_eff - C_a)/50 um (|Gamma|/(Gamma_E - Gamma_A))^3 in approach
 /// ```
-/// The mean and the largest value are of a hundred places, each at the end of its step: the start of approach, a single point, is told apart. v_t and X_Gamma in mu, and these places, are those with which the published rating of NREL's third stage has its printed numbers. Source: ISO/TS 6336-20.
+/// Roots of negative numbers of internal pairs are those of their sizes. The mean and the largest value are of a hundred places, each at the end of its step: the start of approach, a single point, is told apart. v_t and X_Gamma in mu, and these places, are those with which the published rating of NREL's third stage has its printed numbers. Source: ISO/TS 6336-20.
 fn flash(input: &ScuffingInput<'_>, path: &Path<'_>, contact: [f64; 2]) -> Result<FlashRating, RatingError> {
     let (geometry, lubrication) = (path.geometry, &input.lubrication);
     let speed = PI / 60_000.0 * geometry.reference_diameter[0] * input.pair.pinion_speed_rpm;
@@ -333,10 +334,10 @@ fn flash(input: &ScuffingInput<'_>, path: &Path<'_>, contact: [f64; 2]) -> Resul
         let (root_one, root_two) = (one.sqrt(), two.sqrt());
         let material = input.reduced_modulus().powf(0.25) * 1000f64.sqrt() * (root_one + root_two)
             / (contact[0] * root_one + contact[1] * root_two);
-        let shape =
-            0.51 * path.angle_factor() * (u + 1.0).sqrt() * (root_one - root_two).abs() / (one * u * two).powf(0.25);
+        let shape = 0.51 * path.angle_factor() * (u + 1.0).abs().sqrt() * (root_one - root_two).abs()
+            / (one * u.abs() * two).powf(0.25);
         let share = path.load_share(gamma);
-        let load = (share * w).powf(0.75) * speed.sqrt() / geometry.centre_distance.powf(0.25);
+        let load = (share * w).powf(0.75) * speed.sqrt() / geometry.centre_distance.abs().powf(0.25);
         friction(share) * material * approach(gamma) * shape * load
     };
     let start = if input.driver == 0 { path.ends[0] } else { path.ends[1] };
@@ -388,7 +389,8 @@ fn integral(input: &ScuffingInput<'_>, path: &Path<'_>, thermo_elastic: f64) -> 
     let mu = friction(lubrication, load, pitch.rolling_speed(), pitch.relative_radius);
     let radii = path.radii(path.ends[1]);
     let u = geometry.ratio();
-    let shape = 0.51 * (u + 1.0).sqrt() * (radii[0].sqrt() - (radii[1] / u).sqrt()) / (radii[0] * radii[1]).powf(0.25);
+    let shape = 0.51 * (u + 1.0).abs().sqrt() * (radii[0].sqrt() - (radii[1] / u).sqrt())
+        / (radii[0] * radii[1].abs()).powf(0.25);
     let (_, relief) = input.tip_relief();
     let relief = tip_relief_factor(relief, path.eps);
     // Approach is at the tip of the driven gear.
@@ -400,7 +402,7 @@ fn integral(input: &ScuffingInput<'_>, path: &Path<'_>, thermo_elastic: f64) -> 
     };
     let eps = contact_ratio_factor(path.eps);
     let at_tip = mu * thermo_elastic * shape * path.angle_factor() * load.powf(0.75) * speed.sqrt()
-        / geometry.centre_distance.powf(0.25)
+        / geometry.centre_distance.abs().powf(0.25)
         / (meeting * relief);
     let mean = positive("the mean flash temperature in K", at_tip * eps, INTEGRAL)?;
     let oil = lubrication.oil_temperature_c;

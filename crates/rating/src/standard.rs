@@ -208,7 +208,7 @@ impl StandardRating {
 /// sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt[F_t/(d_1 b) (u + 1)/u],   sigma_H = Z_B,D sigma_H0 sqrt(K_A K_V K_Hbeta K_Halpha),   S_H = sigma_HG/sigma_H
 /// sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta Y_B Y_DT,               sigma_F = sigma_F0 K_A K_V K_Fbeta K_Falpha,              S_F = sigma_FG/sigma_F
 /// ```
-/// Source: ISO 6336-2, clause 5; ISO 6336-3, clause 5.
+/// u is negative of an internal pair. Source: ISO 6336-2, clause 5; ISO 6336-3, clause 5.
 ///
 /// # Errors
 /// [`RatingError`] where a number has no meaning for a formula.
@@ -246,7 +246,7 @@ pub fn standard_rating(input: &RatingInput<'_>) -> Result<StandardRating, Rating
         speed,
         roughness_um: input.gears.map(|g| g.flank_roughness_um),
         relative_radius: geometry.pitch_relative_radius(),
-        ratio: u.max(1.0 / u),
+        ratio: u.abs().max(1.0 / u.abs()),
     };
     let rated = |gear: usize| gear_rating(input, gear, nominal_contact, load, &surface);
     Ok(StandardRating {
@@ -306,7 +306,7 @@ fn gear_rating(
     surface: &FlankSurface,
 ) -> Result<GearRating, RatingError> {
     let (geometry, own) = (&input.geometry, &input.gears[gear]);
-    let turns = [1.0, 1.0 / geometry.ratio()][gear] * input.pinion_speed_rpm * own.meshes_per_turn;
+    let turns = [1.0, 1.0 / geometry.ratio().abs()][gear] * input.pinion_speed_rpm * own.meshes_per_turn;
     let cycles = 60.0 * turns * input.life_h;
     let hours = |curve: &StressLife, stress: f64| curve.cycles_at(stress) / (60.0 * turns);
 

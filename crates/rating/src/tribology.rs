@@ -189,7 +189,7 @@ impl SolvedContact {
         let mu = friction(&self.lubrication, load, pitch.rolling_speed(), pitch.relative_radius);
         // The loss of the nominal forces with the friction of the raised ones: mu grows with w^0.2.
         let lost = 1e-3 * loss.mesh_loss_w * load_factor(input).powf(0.2);
-        let area = geometry.centre_distance * geometry.face_width;
+        let area = geometry.centre_distance.abs() * geometry.face_width;
         let relief = tip_relief_factor(input.tip_relief().1, input.addendum_contact_ratios());
         let film = Film {
             lubrication: self.lubrication.clone(),

@@ -9,16 +9,35 @@ use scene::{GearScene, Scene};
 use super::{Rung, companion::Standing, coverage_flanks::other_flanks};
 use crate::{AnalysisError, StaticResult, elastic_gears::material, loaded_pair::LoadedPair, meshes};
 
-/// Ranges of the random pairs of the calibration (`tests/src/random_scene.rs`).
-const TEETH: RangeInclusive<u32> = 12..=120;
-const HELIX_DEG: RangeInclusive<f64> = 0.0..=40.0;
-const WIDTH_MODULES: RangeInclusive<f64> = 3.0..=25.0;
-const SHIFT: RangeInclusive<f64> = -0.4..=0.8;
+/// Ranges of the random pairs that the laws were made of, or checked on (`tests/src/random_scene.rs`); of each array the first is the
+/// pinion's, the second the wheel's.
+struct Ranges {
+    teeth: [RangeInclusive<f64>; 2],
+    helix_deg: RangeInclusive<f64>,
+    width_modules: RangeInclusive<f64>,
+    shift: [RangeInclusive<f64>; 2],
+    /// Least radial thickness of the body beyond the root, modules.
+    rim_modules: [f64; 2],
+}
+
+const EXTERNAL: Ranges = Ranges {
+    teeth: [12.0..=120.0, 12.0..=120.0],
+    helix_deg: 0.0..=40.0,
+    width_modules: 3.0..=25.0,
+    shift: [-0.4..=0.8, -0.4..=0.8],
+    rim_modules: [0.8, 0.8],
+};
+/// Pairs of the checks alone: the laws are those of external pairs.
+const INTERNAL: Ranges = Ranges {
+    teeth: [12.0..=60.0, 24.0..=160.0],
+    helix_deg: 0.0..=30.0,
+    width_modules: 3.0..=10.0,
+    shift: [-0.2..=0.6, -0.3..=0.4],
+    rim_modules: [0.8, 1.2],
+};
 const PRESSURE_ANGLE_DEG: RangeInclusive<f64> = 15.0..=28.0;
 /// Hertz pressure of the mean line load at the pitch point, MPa.
 const PRESSURE_MPA: RangeInclusive<f64> = 500.0..=1800.0;
-/// Radial thickness of the body below the root, modules.
-const LEAST_RIM_MODULES: f64 = 0.8;
 const POSITIONS: RangeInclusive<u32> = 8..=1_000_000;
 /// Difference of the volumes of two meshes of one body, relative; facets of linear elements cost a third of it.
 const SAME_BODY: f64 = 0.015;
@@ -62,14 +81,15 @@ pub(super) fn not_covered(
 
 fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
     let module = scene.pair.normal_module_mm;
+    let ranges = if result.pair.is_internal() { INTERNAL } else { EXTERNAL };
     let mut all = Vec::new();
     let mut check = |what: &str, value: f64, range: RangeInclusive<f64>| {
         if !range.contains(&value) {
             all.push(format!("{what} of {value:.3}: the calibration has {} to {}", range.start(), range.end()));
         }
     };
-    check("a helix angle", scene.pinion.helix_angle_deg.abs(), HELIX_DEG);
-    check("b/m_n", result.pair.face_width() / module, WIDTH_MODULES);
+    check("a helix angle", scene.pinion.helix_angle_deg.abs(), ranges.helix_deg);
+    check("b/m_n", result.pair.face_width() / module, ranges.width_modules);
     check("a normal pressure angle", scene.pair.normal_pressure_angle_deg, PRESSURE_ANGLE_DEG);
     check(
         "a Hertz pressure at the pitch point (MPa)",
@@ -78,20 +98,12 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
     );
     let positions = f64::from(scene.analysis.positions_per_cycle);
     check("positions a cycle", positions, f64::from(*POSITIONS.start())..=f64::from(*POSITIONS.end()));
-    for (name, gear, exact) in
-        [("pinion", scene.gears()[0], &result.pair.pinion), ("wheel", scene.gears()[1], &result.pair.wheel)]
-    {
-        let data = exact.data();
-        let root = module
-            * (0.5 * f64::from(gear.teeth) / gear.helix_angle().cos() + data.profile_shift - data.dedendum_coefficient);
-        let rim = (root - 0.5 * gear.bore_diameter_mm) / module;
-        check(
-            &format!("teeth of the {name}"),
-            f64::from(gear.teeth),
-            f64::from(*TEETH.start())..=f64::from(*TEETH.end()),
-        );
-        check(&format!("profile shift of the {name}"), gear.profile_shift, SHIFT);
-        check(&format!("rim of the {name} in modules"), rim, LEAST_RIM_MODULES..=f64::INFINITY);
+    let gears = [("pinion", &result.pair.pinion), ("wheel", &result.pair.wheel)];
+    for (((name, exact), gear), i) in gears.into_iter().zip(scene.gears()).zip(0..) {
+        let rim = (exact.root_radius() - 0.5 * exact.data().bore_diameter) / module;
+        check(&format!("teeth of the {name}"), f64::from(gear.teeth), ranges.teeth[i].clone());
+        check(&format!("profile shift of the {name}"), gear.profile_shift, ranges.shift[i].clone());
+        check(&format!("rim of the {name} in modules"), rim, ranges.rim_modules[i]..=f64::INFINITY);
     }
     let [first, second] = result.pair.faces();
     if first != second {

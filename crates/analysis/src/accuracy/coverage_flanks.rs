@@ -10,6 +10,8 @@ const LEAD_CROWNING_UM: RangeInclusive<f64> = 0.0..=20.0;
 const MOST_MISALIGNMENT_UM: f64 = 20.0;
 /// Their basic rack: addendum and dedendum over the module.
 const RACK: [f64; 2] = [1.0, 1.25];
+/// Addenda of their internal pairs, over the module.
+const RING_ADDENDUM: RangeInclusive<f64> = 0.75..=1.0;
 /// They are of steel, 0.3; metals differ by no more than this.
 const POISSON: RangeInclusive<f64> = 0.25..=0.35;
 
@@ -29,8 +31,9 @@ pub(super) fn other_flanks(scene: &Scene) -> Vec<String> {
         all.push(format!("a misalignment of {most} um: the calibration has up to {MOST_MISALIGNMENT_UM} um"));
     }
     let [addendum, dedendum] = [scene.pair.addendum_coefficient, scene.pair.dedendum_coefficient];
-    if [addendum, dedendum] != RACK {
-        let [a, d] = RACK;
+    let [a, d] = RACK;
+    let low = scene.wheel.is_internal() && RING_ADDENDUM.contains(&addendum);
+    if dedendum != d || (addendum != a && !low) {
         all.push(format!("a basic rack of {addendum} and {dedendum} modules: the calibration has {a} and {d}"));
     }
     all

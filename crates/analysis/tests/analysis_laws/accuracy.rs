@@ -105,6 +105,29 @@ fn the_calibration_is_whole() {
     }
 }
 
+/// A pinion in a ring gets its mesh and its bounds as other pairs do; a ring unlike those that the laws were checked on is told of.
+#[test]
+fn rings_have_bounds() {
+    let ring = |teeth: i64| {
+        let pair = pair().pinion(20, 15.0).set("wheel.teeth", -teeth).set("pair.addendum_coefficient", 0.85);
+        let pair = pair.set("pinion.profile_shift", 0.3).set("wheel.profile_shift", -0.1).torque_nm(600.0);
+        solved(
+            &pair
+                .set("pair.face_width_mm", 12.0)
+                .set("accuracy.mean_ste", "2 %")
+                .build()
+                .unwrap_or_else(|e| panic!("{e}")),
+        )
+    };
+    let near = ring(52);
+    let mean = bound(&near, Quantity::MeanSte);
+    assert_eq!(mean.met, Some(true), "{mean:?}");
+    let not_covered = |result: &StaticResult| result.facts.accuracy.as_ref().unwrap().not_covered.clone();
+    assert_eq!(not_covered(&near).len(), 1, "{:?}", not_covered(&near));
+    let large = not_covered(&ring(170));
+    assert!(large.iter().any(|said| said.starts_with("teeth of the wheel of 170")), "{large:?}");
+}
+
 /// A rung that the calibration does not know has bounds as any other mesh, a number without a bound is an error, and a
 /// load beyond the calibration is told.
 #[test]

@@ -46,6 +46,7 @@ mod f35_geometry;
 mod f37_lengths;
 mod f38_certificate_scale;
 mod f41_idle_checks;
+mod f43_internal_interference;
 
 /// All known failure modes, in the order of their numbers.
 pub const MODES: &[FailureMode] = &[
@@ -87,4 +88,5 @@ pub const MODES: &[FailureMode] = &[
     f37_lengths::MODE,
     f38_certificate_scale::MODE,
     f41_idle_checks::MODE,
+    f43_internal_interference::MODE,
 ];

@@ -29,20 +29,20 @@ fn case(gears: &[GearData; 2], torque: f64, factor: f64) -> (Case, StaticOptions
     (case, options)
 }
 
-/// The pinion's largest root tension at the first of two positions, and the model that stands there.
-fn pinion(case: &Case, options: StaticOptions) -> (StressPeak, StaticModel) {
+/// The largest root tension of a gear at the first of two positions, and the model that stands there.
+fn tension(case: &Case, options: StaticOptions, gear: usize) -> (StressPeak, StaticModel) {
     let mut model = case.reduced(options);
     let position = model.solve(ale::Station { cycle: 0, phase: 0.0 }).unwrap();
-    let peaks = position.root_stress[0].iter().map(|f| f.max_principal);
+    let peaks = position.root_stress[gear].iter().map(|f| f.max_principal);
     (peaks.reduce(|best, now| if now.stress > best.stress { now } else { best }).unwrap(), model)
 }
 
-/// Forces of the flanks at the pinion's nodes, N: K u, zero but where it is touched.
-fn forces(case: &Case, model: &StaticModel) -> Vec<(u32, [f64; 3])> {
-    let ElasticGear::Reduced(gear) = &model.gears()[0] else { panic!("the pinion is not reduced") };
+/// Forces of the flanks at a gear's nodes, N: K u, zero but where it is touched.
+fn forces(case: &Case, model: &StaticModel, i: usize) -> Vec<(u32, [f64; 3])> {
+    let ElasticGear::Reduced(gear) = &model.gears()[i] else { panic!("gear {i} is not reduced") };
     let set = model.contact_set();
-    let boundary = &model.last().unwrap().displacements_on(set)[0];
-    let field = gear.expand(&set.windows().unwrap()[0], boundary).unwrap();
+    let boundary = &model.last().unwrap().displacements_on(set)[i];
+    let field = gear.expand(&set.windows().unwrap()[i], boundary).unwrap();
     let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
     let stiffness = assemble_stiffness(mesh, &Material::STEEL, dofs, &case.elements).unwrap();
     let free: Vec<f64> = dofs.free_nodes().iter().flat_map(|&n| field[n as usize]).collect();
@@ -107,37 +107,49 @@ fn default_meshes_agree_with_calculix_on_resolved_ones() {
     };
     let usual = testing::default_data(20.0);
     let odd = [few(17, 1.0, 0.4, 20.0), few(43, -1.0, 0.1, 60.0)];
-    for (name, gears, torque) in [("17/43, beta 28", odd, 250e3), ("default pair", usual, 150e3)] {
-        let (own, options) = case(&gears, torque, 1.0);
-        let (coarse, _) = pinion(&own, options);
-        let (resolved, options) = case(&gears, torque, 1.5);
-        let (fine, model) = pinion(&resolved, options);
-        let loads = forces(&resolved, &model);
-        let mesh = resolved.meshes[0].mesh();
-        let scratch = tempfile::tempdir().unwrap();
-        let stress = calculix(scratch.path(), &deck(mesh, resolved.meshes[0].bore_nodes(), &loads));
-        let place = mesh.nodes[(fine.node - 1) as usize];
-        let near = |node: &u32| {
-            let x = mesh.nodes[*node as usize];
-            (0..3).map(|k| (x[k] - place[k]).powi(2)).sum::<f64>().sqrt() < 0.3 * gears[0].normal_module
-        };
-        let theirs = stress.iter().filter(|(n, _)| near(n)).map(|(_, s)| fem::max_principal(s)).fold(0.0, f64::max);
-        let there = fem::max_principal(&stress[&((fine.node - 1) as u32)]);
-        let sum = loads.iter().fold([0.0; 3], |sum, (_, f)| [0, 1, 2].map(|k| sum[k] + f[k]));
-        println!(
-            "{name}: {:.2} MPa by default, {:.2} (Gauss points {:.2}) resolved, CalculiX {theirs:.2} ({there:.2} at the node): {:+.2} %, \
-             {:+.2} %; r {:.2}, z {:.2}; {} loaded nodes, {sum:.1?} N",
-            coarse.stress,
-            fine.stress,
-            fine.from_volume,
-            100.0 * (coarse.stress / theirs - 1.0),
-            100.0 * (fine.stress / theirs - 1.0),
-            fine.radius,
-            fine.z,
-            loads.len()
-        );
-        for (mesh, found) in [("default", coarse.stress), ("resolved", fine.stress)] {
-            assert!((found / theirs - 1.0).abs() < 0.03, "{name}, {mesh} mesh: {found} MPa, CalculiX {theirs} MPa");
-        }
+    agree("17/43, beta 28", &odd, 250e3, 0);
+    agree("default pair", &usual, 150e3, 0);
+}
+
+/// A ring's teeth, whose roots a shaper has rounded: the same of the ring of 52 teeth about a pinion of 20.
+#[test]
+#[ignore = "a minute; needs CalculiX"]
+fn default_meshes_of_rings_agree_with_calculix_on_resolved_ones() {
+    agree("ring of 20/-52", &testing::planet_in_ring(15.0), 300e3, 1);
+}
+
+/// The largest root tension of gear `gear` (0, 1) on its default mesh and on one 1.5 times as fine, within 3 % of what CalculiX
+/// has on the latter.
+fn agree(name: &str, gears: &[GearData; 2], torque: f64, gear: usize) {
+    let (own, options) = case(gears, torque, 1.0);
+    let (coarse, _) = tension(&own, options, gear);
+    let (resolved, options) = case(gears, torque, 1.5);
+    let (fine, model) = tension(&resolved, options, gear);
+    let loads = forces(&resolved, &model, gear);
+    let mesh = resolved.meshes[gear].mesh();
+    let scratch = tempfile::tempdir().unwrap();
+    let stress = calculix(scratch.path(), &deck(mesh, resolved.meshes[gear].bore_nodes(), &loads));
+    let place = mesh.nodes[(fine.node - 1) as usize];
+    let near = |node: &u32| {
+        let x = mesh.nodes[*node as usize];
+        (0..3).map(|k| (x[k] - place[k]).powi(2)).sum::<f64>().sqrt() < 0.3 * gears[0].normal_module
+    };
+    let theirs = stress.iter().filter(|(n, _)| near(n)).map(|(_, s)| fem::max_principal(s)).fold(0.0, f64::max);
+    let there = fem::max_principal(&stress[&((fine.node - 1) as u32)]);
+    let sum = loads.iter().fold([0.0; 3], |sum, (_, f)| [0, 1, 2].map(|k| sum[k] + f[k]));
+    println!(
+        "{name}: {:.2} MPa by default, {:.2} (Gauss points {:.2}) resolved, CalculiX {theirs:.2} ({there:.2} at the node): {:+.2} %, \
+         {:+.2} %; r {:.2}, z {:.2}; {} loaded nodes, {sum:.1?} N",
+        coarse.stress,
+        fine.stress,
+        fine.from_volume,
+        100.0 * (coarse.stress / theirs - 1.0),
+        100.0 * (fine.stress / theirs - 1.0),
+        fine.radius,
+        fine.z,
+        loads.len()
+    );
+    for (mesh, found) in [("default", coarse.stress), ("resolved", fine.stress)] {
+        assert!((found / theirs - 1.0).abs() < 0.03, "{name}, {mesh} mesh: {found} MPa, CalculiX {theirs} MPa");
     }
 }

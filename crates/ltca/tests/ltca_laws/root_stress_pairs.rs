@@ -106,6 +106,44 @@ fn default_sections_are_settled() {
     }
 }
 
+/// A spur planet in its ring, one element along the face: teeth, profile shifts with ISO's signs, rim of the ring in modules.
+fn ring_section([planet, ring]: [u32; 2], [x_planet, x_ring]: [f64; 2], rim_modules: f64) -> Loaded {
+    let outside = 3.0 * (f64::from(ring) + 2.0 * (1.25 - x_ring + rim_modules));
+    let planet = GearData {
+        teeth: planet,
+        profile_shift: x_planet,
+        addendum_coefficient: 0.85,
+        bore_diameter: 3.0 * (f64::from(planet) - 12.0),
+        ..section([30, 30], [0.0, 0.0], [4.0, 4.0]).gears[0].clone()
+    };
+    let data = GearData {
+        teeth: ring,
+        profile_shift: x_ring,
+        bore_diameter: -outside,
+        root_radius_coefficient: 0.3,
+        ..planet.clone()
+    };
+    Loaded { torque: 180.0 * 5.0 * 1.5 * f64::from(ring), gears: [planet, data.with_usual_shaper(0.0)] }
+}
+
+/// Default meshes of rings are as settled as those of gears with outer teeth: thick rims and thin ones, roots that a
+/// shaper has rounded amply and sharply.
+#[test]
+fn default_sections_of_rings_are_settled() {
+    let own = one_layer(default_counts());
+    for (name, pair) in [
+        ("planet 36 in ring 93", ring_section([36, 93], [0.5039, 0.1171], 5.0)),
+        ("planet 20 in ring 52", ring_section([20, 52], [0.3, -0.1], 3.0)),
+        ("thin rim", ring_section([20, 52], [0.3, -0.1], 1.2)),
+    ] {
+        for &factor in &[2.0, 1.5, 3.0][..testing::cases(1, 3)] {
+            for [off, said] in compare(name, &pair, own, finer(own, factor)) {
+                assert!(off.abs() < 3.0, "{name}: {off} % off, {said} % said");
+            }
+        }
+    }
+}
+
 /// A tooth touched at its corner as it goes: the largest root stress of pinion and wheel is that of the bending of a
 /// tooth, which finer meshes have, too, and its estimate says so. With nine elements along the fillet and 14 along the
 /// face, 32 positions: 64.33 and 59.55 MPa.

@@ -17,7 +17,7 @@ pub struct IsoFlank {
     pub contact_ratio: f64,
     /// Z_beta, helix angle factor.
     pub helix: f64,
-    /// Z_B and Z_D: to the inner points of single contact B of the pinion and D of the wheel; `None` unless between one
+    /// Z_B and Z_D: to the inner points of single contact B of the pinion and D of the wheel, 1 for an internal wheel; `None` unless between one
     /// and two pairs mesh.
     pub single_contact: Option<[f64; 2]>,
 }
@@ -29,7 +29,7 @@ impl IsoFlank {
     /// Z_H   = sqrt(2 cos beta_b cos a_wt / (cos^2 a_t sin a_wt)),   Z_E = sqrt(1 / (pi sum (1 - nu^2)/E))
     /// Z_eps = sqrt((4 - eps_alpha)/3 (1 - e) + e/eps_alpha),   e = min(eps_beta, 1),   Z_beta = 1/sqrt(cos beta)
     /// M_1   = tan a_wt / sqrt{[u_a1 - 2 pi/z_1] [u_a2 - (eps_alpha - 1) 2 pi/z_2]},   u_a = sqrt(d_a^2/d_b^2 - 1)
-    /// Z_B   = max(1, M_1 - e (M_1 - 1)),   Z_D likewise with the gears exchanged
+    /// Z_B   = max(1, M_1 - e (M_1 - 1)),   Z_D likewise with the gears exchanged, 1 for an internal wheel
     /// ```
     /// Source: ISO 6336-2:2019, clauses 6 to 9; f_ZCa of helical gears without modified flanks, which raises Z_B and
     /// Z_D for lack of experience, is left out.
@@ -52,7 +52,9 @@ impl IsoFlank {
             elasticity: 1.0 / (PI * compliance).sqrt(),
             contact_ratio: ((4.0 - eps) / 3.0 * (1.0 - overlap) + overlap / eps).sqrt(),
             helix: 1.0 / pinion.data().helix_angle.cos().sqrt(),
-            single_contact: (1.0..2.0).contains(&eps).then(|| [single(0, 1), single(1, 0)]),
+            single_contact: (1.0..2.0)
+                .contains(&eps)
+                .then(|| [single(0, 1), if pair.is_internal() { 1.0 } else { single(1, 0) }]),
         }
     }
 

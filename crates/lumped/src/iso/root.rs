@@ -1,9 +1,10 @@
-//! Nominal tooth root stress after ISO 6336-3, method B: a bar that is as thick as the tooth at its 30 degree tangents.
+//! Nominal tooth root stress after ISO 6336-3, method B: a bar that is as thick as the tooth at its 30 degree tangents,
+//! 60 degree tangents of an internal gear.
 //! Theory (23a), (23b).
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4, FRAC_PI_6, PI};
 
-use geometry::Gear;
+use geometry::{Gear, ShapedRoot};
 use serde::Serialize;
 
 use crate::LumpedError;
@@ -12,6 +13,10 @@ const METHOD: &str = "ISO 6336-3 method B";
 /// Rim thickness over tooth height from which on the rim does not matter, and down to which the standard goes.
 const SOLID_RIM: f64 = 1.2;
 const THINNEST_RIM: f64 = 0.5;
+/// Rim thickness of an internal gear over the normal module from which on the rim does not matter, and down to which the
+/// standard goes.
+const SOLID_RING: f64 = 3.5;
+const THINNEST_RING: f64 = 1.75;
 /// Largest helix angle that lowers Y_beta any further, degrees.
 const LARGEST_HELIX_DEG: f64 = 30.0;
 
@@ -29,13 +34,13 @@ pub struct IsoRootPair {
 /// The root of one gear's tooth after ISO 6336-3, method B: section of the virtual spur gear and factors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IsoRoot {
-    /// z_n, teeth of the virtual spur gear.
+    /// z_n, teeth of the virtual spur gear; negative of an internal gear.
     pub virtual_teeth: f64,
-    /// s_Fn, chord between the 30 degree tangents, mm.
+    /// s_Fn, chord between the 30 (internal: 60) degree tangents, mm.
     pub root_chord: f64,
     /// h_Fe, lever of the load at the outer point of single pair contact, mm.
     pub lever: f64,
-    /// rho_F, radius of the fillet at the 30 degree tangent, mm.
+    /// rho_F, radius of the fillet at that tangent, mm.
     pub fillet_radius: f64,
     /// alpha_Fen, angle of the load against the chord, rad.
     pub load_angle: f64,
@@ -69,20 +74,22 @@ impl IsoRoot {
     /// Y_F  = f_eps 6 (h_Fe/m_n) cos a_Fen / [(s_Fn/m_n)^2 cos a_n]
     /// Y_S  = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)),   L = s_Fn/h_Fe,   q_s = s_Fn/(2 rho_F)
     /// ```
+    /// The root of an internal gear is that of the virtual spur gear which a virtual shaper cuts: s_Fn and rho_F at the 60 degree tangent of the
+    /// exact fillet, h_Fe from there, with z_n, d_bn and d_en below zero; Y_B = 1.15 ln(8.324 m_n/s_R) for a rim s_R of 1.75 to 3.5 m_n, 1 above.
+    /// The standard takes Y_S from external gears.
+    ///
     /// The thinning A_s of the teeth is that of the gear here: it widens the rack's tooth and leaves its depth. f_eps,
-    /// Y_beta and Y_DT are those of the 2019 edition; Y_B is that of external gears. Source: ISO 6336-3:2019, clauses 6
-    /// to 10.
+    /// Y_beta and Y_DT are those of the 2019 edition. Source: ISO 6336-3:2019, clauses 6 to 10.
     ///
     /// # Errors
     /// [`LumpedError::OutOfRange`] where the standard has no value: eps_an not in 1 .. 3, q_s not in 1 .. 8, a rim of
-    /// half the tooth height or less, a rack whose rounding leaves no 30 degree tangent.
+    /// half the tooth height (internal: of 1.75 modules) or less, a tool whose rounding leaves no such tangent.
     pub fn new(gear: &Gear, pair: IsoRootPair) -> Result<Self, LumpedError> {
         let data = gear.data();
-        // Roots of internal gears are made by a shaper and follow other formulas (clause 6.2.3).
-        inside("number of teeth of an external gear", data.signed_teeth(), 5.0, f64::MAX, "external gears alone")?;
+        inside("number of teeth", f64::from(data.teeth), 5.0, f64::MAX, "5 or more")?;
         let cos_a = data.normal_pressure_angle.cos();
         let cos2_base = gear.base_helix_angle().cos().powi(2);
-        let virtual_teeth = f64::from(data.teeth) / (cos2_base * data.helix_angle.cos());
+        let virtual_teeth = data.signed_teeth() / (cos2_base * data.helix_angle.cos());
         let eps_n = pair.eps_alpha / cos2_base;
         inside("contact ratio of the virtual spur gears", eps_n, 1.0, 3.0, "1 .. 3")?;
         inside("overlap ratio", pair.eps_beta, 0.0, f64::MAX, "0 or above")?;
@@ -91,8 +98,9 @@ impl IsoRoot {
         let m = data.normal_module;
         let base = 0.5 * m * virtual_teeth * cos_a;
         let tip = 0.5 * m * virtual_teeth + gear.tip_radius() - gear.reference_radius();
-        let along = (tip * tip - base * base).max(0.0).sqrt() - PI * m * cos_a * (eps_n - 1.0);
-        let (lever, load_angle) = section.lever(gear, virtual_teeth, (along / base).atan())?;
+        // The load goes from the tip towards the root: on a ring farther away from the base circle.
+        let along = (tip * tip - base * base).max(0.0).sqrt() - gear.sign() * PI * m * cos_a * (eps_n - 1.0);
+        let (lever, load_angle) = section.lever(gear, virtual_teeth, (along / base.abs()).atan())?;
 
         let (s, bending) = (section.chord / m, 6.0 * lever / m * load_angle.cos());
         let f_eps = load_share(eps_n, pair.eps_beta);
@@ -111,7 +119,7 @@ impl IsoRoot {
             y_form: f_eps * bending / (s * s * cos_a),
             y_stress: (1.2 + 0.13 * slender) * notch.powf(1.0 / (1.21 + 2.3 / slender)),
             y_helix: helix_factor(data.helix_angle, pair.eps_beta),
-            y_rim: rim_factor(rim_ratio)?,
+            y_rim: rim_factor(gear, rim_ratio)?,
             y_deep_tooth: if pair.fine { deep_tooth_factor(eps_n) } else { 1.0 },
         })
     }
@@ -128,7 +136,7 @@ impl IsoRoot {
     }
 }
 
-/// The tooth between its 30 degree tangents.
+/// The tooth between its 30 (internal: 60) degree tangents.
 struct RootSection {
     /// s_Fn, mm.
     chord: f64,
@@ -141,6 +149,14 @@ struct RootSection {
 impl RootSection {
     fn new(gear: &Gear, virtual_teeth: f64) -> Result<Self, LumpedError> {
         let data = gear.data();
+        if gear.is_internal() {
+            let root = ShapedRoot::at_tangent(data, FRAC_PI_3);
+            let lacks = || {
+                out_of_range("shaper of an internal gear of so many virtual teeth", virtual_teeth, "one that meshes")
+            };
+            let ShapedRoot { chord, height, fillet_radius: radius } = root.ok_or_else(lacks)?;
+            return Ok(Self { chord, radius, height });
+        }
         let (sin_a, cos_a) = data.normal_pressure_angle.sin_cos();
         let (m, z, rho) = (data.normal_module, virtual_teeth, data.root_radius_coefficient);
         let e = FRAC_PI_4 + 0.5 * data.thickness_allowance / m
@@ -208,12 +224,18 @@ fn helix_factor(helix_angle: f64, eps_beta: f64) -> f64 {
     (1.0 - eps_beta.min(1.0) * beta.to_degrees() / 120.0) / beta.cos().powi(3)
 }
 
-/// s_R / h_t of a gear whose rim reaches from the bore to the root circle.
+/// s_R / h_t of a gear whose rim reaches from the bore, or the outside of a ring, to the root circle.
 pub fn rim_ratio(gear: &Gear) -> f64 {
     (gear.root_radius() - 0.5 * gear.data().bore_diameter) / (gear.tip_radius() - gear.root_radius())
 }
 
-fn rim_factor(ratio: f64) -> Result<f64, LumpedError> {
+/// Y_B by s_R / h_t, of an internal gear by s_R / m_n.
+fn rim_factor(gear: &Gear, ratio: f64) -> Result<f64, LumpedError> {
+    if gear.is_internal() {
+        let modules = ratio * (gear.tip_radius() - gear.root_radius()) / gear.data().normal_module;
+        inside("rim thickness of an internal gear over normal module", modules, THINNEST_RING, f64::MAX, "above 1.75")?;
+        return Ok(if modules >= SOLID_RING { 1.0 } else { 1.15 * (8.324 / modules).ln() });
+    }
     if ratio <= THINNEST_RIM {
         return Err(out_of_range("rim thickness over tooth height", ratio, "above 0.5"));
     }

@@ -3,4 +3,5 @@
 mod factors;
 mod life;
 mod pair;
+mod rings;
 mod tribology;

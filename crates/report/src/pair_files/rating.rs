@@ -141,7 +141,7 @@ fn add_oiled(table: &mut Table, gear: usize, rating: Option<&RatingHeadline>) {
         .zip(column("max_pressure_mpa"))
         .map(|((diameter, roll), pressure)| {
             let tan = roll.to_radians();
-            (0.5 * diameter * tan / tan.hypot(1.0), pressure)
+            (0.5 * diameter.abs() * tan.abs() / tan.hypot(1.0), pressure)
         })
         .collect();
     if let Some(field) = rating.and_then(|rating| rating.contact_field.as_ref()) {

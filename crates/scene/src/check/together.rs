@@ -75,20 +75,20 @@ fn accuracy(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     Ok(())
 }
 
-/// What internal pairs have: what a mesh answers, at rest and in motion, without bounds.
+/// What internal pairs have: what a mesh answers, at rest and in motion; bounds at rest alone.
 fn internal(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let teeth = raw.wheel.teeth.as_ref().map_or(0..0, Spanned::span);
     let span = |word: Option<std::ops::Range<usize>>| word.unwrap_or(teeth.clone());
     let refused = |span: std::ops::Range<usize>, what: String, advice: &str| Err(s.conflict(&span, what, advice));
-    let model = scene.analysis.model;
-    if scene.is_auto()
-        || !matches!(model, Model::Reduced | Model::ReducedModes | Model::Mapped | Model::Full | Model::Iso)
-    {
-        let what = format!("the model \"{}\" does not know internal gears", model.word());
+    let (model, in_time) = (scene.analysis.model, scene.analysis.kind == Kind::Dynamic);
+    let meshed = matches!(model, Model::Reduced | Model::ReducedModes | Model::Mapped | Model::Full | Model::Iso);
+    if if scene.is_auto() { in_time } else { !meshed } {
+        let when = if in_time { " in motion" } else { "" };
+        let what = format!("the model \"{}\" does not know internal gears{when}", model.word());
         return refused(span(raw.analysis.model.as_ref().map(Spanned::span)), what, "use `model = \"reduced\"`");
     }
-    if !scene.accuracy.is_none() {
-        let what = "the bounds of [accuracy] are those of external pairs".to_owned();
+    if !scene.accuracy.is_none() && in_time {
+        let what = "the bounds of [accuracy] in motion are those of external pairs".to_owned();
         return refused(span(raw.accuracy.as_ref().map(Spanned::span)), what, "leave [accuracy] out");
     }
     Ok(())

@@ -206,9 +206,6 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
         let said = format!("asks for `{key}` in [output], which is the pair's alone");
         return unfit(&said, "leave it out here, and run the scene of the pair by itself for it");
     }
-    if scene.rating.is_some() && scene.wheel.is_internal() {
-        return unfit("asks for the rating of an internal pair", "there is none yet: leave [rating] out of this mesh");
-    }
     let name = mesh_name(raw);
     let timing = s.choice_of("timing", &raw.timing)?;
     Ok(GearboxMesh { name, gears: pair, scene, timing })

@@ -57,7 +57,11 @@ fn what_rings_have_not_is_refused() {
         assert!(words.iter().all(|word| said.contains(word)), "{said}");
     };
     refused(read("52", "", "[wheel.shaper]\nteeth = 20"), &["`shaper` makes internal gears"]);
-    refused(read("-52", "", "[accuracy]\nmean_ste = \"1 %\""), &["\"auto\"", "does not know internal gears"]);
+    let bounds = "[accuracy]\nrms_dte = \"10 %\"\n[drive]\nby = \"speed\"\n[analysis]\nkind = \"dynamic\"";
+    refused(read("-52", "", bounds), &["\"auto\"", "does not know internal gears in motion"]);
+    let reduced = format!("{bounds}\nmodel = \"reduced\"");
+    refused(read("-52", "", &reduced), &["bounds", "in motion are those of external pairs"]);
+    assert!(read("-52", "", "[accuracy]\nmean_ste = \"1 %\"").unwrap_or_else(|e| panic!("{e}")).is_auto());
     refused(read("-52", "", "[analysis]\nkind = \"dynamic\"\nmodel = \"impact\""), &["does not know internal gears"]);
     refused(read("-4", "", ""), &["5 .. 2000"]);
     refused(read("-52", "", "helix_angle_deg = -15.0"), &["do not mesh"]);

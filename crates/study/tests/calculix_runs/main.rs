@@ -74,19 +74,20 @@ fn planet_in_ring() -> Case {
     quadratic([planet, ring], Some(-584.0 / 7.0), 250.0 * 12.0 * 131.1, [8, 4, 3, 2, 2], Extent::Sector(5))
 }
 
-/// A planet in its ring on the same meshes: pressed points, penalty 1e7 MPa/mm, gaps of the quadratic faces, hex20 with full integration on both sides: 0.1 %, and 0.4 % where a third pair presses with a tip edge.
+/// A planet in its ring on the same meshes: pressed points, penalty 1e7 MPa/mm, gaps of the quadratic faces, hex20 with full integration on both sides: 0.1 %. Where a third pair presses with its tip edge on a part of a face, points must be four times as close in each direction: with 8, 16 and 32 points an edge of a face the program is 0.31 % below, 0.36 % above and 0.06 % below CalculiX, which cuts faces where they meet.
 fn agrees_on_a_planet_in_its_ring(calculix: Calculix) {
     let mut case = planet_in_ring();
     case.elements = ElementOptions { integration: Integration::Full, ..ElementOptions::default() };
-    let options = case.options().with_contact(|c| {
-        (c.method, c.law, c.gap) = (Method::Nodal, Law::Penalty(1e7), GapSource::Facet);
-        c.points_per_face_edge = 8;
-    });
-    let positions = 2;
-    let history = case.reduced(options).run(positions, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    let solved = |phase: f64, points: usize| {
+        let options = case.options().with_contact(|c| {
+            (c.method, c.law, c.gap) = (Method::Nodal, Law::Penalty(1e7), GapSource::Facet);
+            c.points_per_face_edge = points;
+        });
+        case.reduced(options).solve(ale::Station { cycle: 0, phase }).unwrap_or_else(|e| panic!("{e}"))
+    };
     let (pair, side, steel) = (&case.pair, Side::Left, Material::STEEL);
     let radius = pair.wheel.base_radius().abs();
-    for p in &history.positions {
+    for p in [solved(0.0, 8), solved(0.5, 32)] {
         let angle = pair.middle_angle(side) + (p.mesh_phase - 0.5) * pair.pinion.pitch_angle();
         let angles = [angle, pair.wheel_angle(side, angle)];
         let pairs: Vec<[u32; 2]> = (-1i64..=1).map(|k| [k.rem_euclid(36) as u32, (-k).rem_euclid(93) as u32]).collect();
@@ -117,9 +118,6 @@ fn agrees_on_a_planet_in_its_ring(calculix: Calculix) {
             p.pairs.iter().map(|q| q.normal_force).collect::<Vec<_>>(),
             run.result.pairs.iter().map(|q| q.size()).collect::<Vec<_>>()
         );
-        // A third pair, at a contact ratio of 1.6, presses with its tip edge on part of a face, which both programs cut into points of their own.
-        let at_edge = p.pairs.iter().filter(|q| q.normal_force > 0.0).count() > 2;
-        let allowed = if at_edge { 4e-3 } else { 1e-3 };
-        assert!((own / other - 1.0).abs() < allowed, "{own} mm, CalculiX {other} mm");
+        assert!((own / other - 1.0).abs() < 1e-3, "{own} mm, CalculiX {other} mm");
     }
 }

@@ -64,12 +64,13 @@ pub(super) fn check(files: &[String]) -> Result<(), Failure> {
 }
 
 /// Strata that a pair belongs to.
-fn strata(pair: &MeasuredPair) -> [&'static str; 7] {
+fn strata(pair: &MeasuredPair) -> [&'static str; 8] {
     let scene = &pair.scene;
     let modules = scene.pair.face_width_mm / scene.pair.normal_module_mm;
     let modified = scene.gears().iter().any(|g| !g.modification.drive.is_none());
     [
         "all",
+        if scene.wheel.is_internal() { "internal" } else { "external" },
         if scene.pinion.helix_angle_deg == 0.0 { "spur" } else { "helical" },
         if pair.contact_ratio() < 2.0 { "contact ratio below 2" } else { "contact ratio from 2 on" },
         if modules < 8.0 { "width below 8 m_n" } else { "width from 8 m_n on" },
