@@ -122,6 +122,20 @@ pub enum MeshError {
         /// Greatest height of the bore, mm.
         high_mm: f64,
     },
+    /// An elastic foundation of the bore with a stiffness that is none.
+    #[error("the stiffness of an elastic bore is {found} N/mm^3, and must be finite and at least 0")]
+    BadFoundation {
+        /// The stiffness, N/mm^3.
+        found: f64,
+    },
+    /// An elastic foundation of the bore that leaves the gear a motion.
+    #[error("the springs of the elastic bore let the gear {motion}: it has no {missing} stiffness")]
+    FreeBore {
+        /// What the gear may do.
+        motion: &'static str,
+        /// Direction without a spring.
+        missing: &'static str,
+    },
     /// The mesh is not a sector with two cuts, and only such a sector can be repeated.
     #[error("the mesh is no periodic sector: it has no cuts")]
     NoCuts,
@@ -228,6 +242,13 @@ impl MeshError {
             Self::TooLarge { .. } => "make the sector's mesh coarser",
             Self::NotHeld { .. } => {
                 "whole faces of the mesh are held: hold a longer part, or mesh the bore finer along the face"
+            }
+            Self::BadFoundation { .. } => "leave the key out where nothing holds",
+            Self::FreeBore { missing: "axial", .. } => {
+                "state `axial_n_mm3` too; without axial forces any small stiffness gives the same answer"
+            }
+            Self::FreeBore { .. } => {
+                "state `tangential_n_mm3` too; where no torque passes, as on a bearing, a thousandth of the radial one will do"
             }
             Self::NoBore { .. } => "set bore_diameter_mm to that of the mesh, or name the bore's group",
         };

@@ -9,6 +9,11 @@ impl BoreScene {
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
+
+    /// Radial, tangential and axial stiffness per area of an elastic bore, N/mm^3.
+    pub fn springs(&self) -> [f64; 3] {
+        [self.radial_n_mm3, self.tangential_n_mm3, self.axial_n_mm3]
+    }
 }
 
 impl MisalignmentScene {

@@ -75,8 +75,10 @@ fn mesh(hasher: &mut Hasher, gear: &MeshedGear) {
     // A rigid bore is what records knew before there was another.
     if gear.bore_coupling() != BoreCoupling::Kinematic {
         hasher.update(gear.bore_coupling().name().as_bytes());
-        // Weights of the means come of the faces, which need not be those that their nodes have.
+        // Means and springs come of the faces, which need not be those that their nodes have.
         gear.bore().faces.iter().for_each(|face| numbers(hasher, face.nodes()));
+        let springs = gear.bore_coupling().foundation().map(|foundation| foundation.stiffness());
+        update(hasher, springs.as_slice().as_flattened(), |k| k.to_le_bytes());
     }
     for cut in gear.cuts().into_iter().flatten() {
         numbers(hasher, &cut.nodes());

@@ -3,6 +3,7 @@
 mod bore;
 mod common;
 mod cyclic;
+mod elastic_bore;
 mod holes;
 mod modes;
 mod record;

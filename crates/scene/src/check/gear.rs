@@ -1,13 +1,13 @@
 //! Checks of the gears and of the data common to both.
 
 use geometry::{GearData, Shaper};
-use mesh::{GroupNames, Mesh};
+use mesh::{Foundation, GroupNames, Mesh};
 use toml::Spanned;
 
 use super::Checked;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    BoreScene, DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
+    BoreScene, Coupling, DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
     schema::{GEAR, MESHER, PAIR, RawBore, RawGear, RawGroups, RawMesher, RawPair, RawShaper},
     source::Source,
     spanned::{Number, Word},
@@ -279,7 +279,25 @@ fn bore(s: &Source<'_>, table: &Spanned<RawBore>) -> Checked<BoreScene> {
             }
         }
     };
-    Ok(BoreScene { held_mm, ..BoreScene::read(s, raw, f64::INFINITY)? })
+    let bore = BoreScene { held_mm, ..BoreScene::read(s, raw, f64::INFINITY)? };
+    let springs = [
+        ("radial_n_mm3", &raw.radial_n_mm3),
+        ("tangential_n_mm3", &raw.tangential_n_mm3),
+        ("axial_n_mm3", &raw.axial_n_mm3),
+    ];
+    let stated = springs.iter().find_map(|(key, value)| Some((key, value.as_ref()?.span())));
+    match (bore.coupling, stated) {
+        (Coupling::Elastic, _) => {
+            let held = Foundation::new(bore.springs()).map(|_| bore);
+            held.map_err(|e| s.conflict(&table.span(), e.to_string(), e.hint().unwrap_or_default()))
+        }
+        (_, None) => Ok(bore),
+        (other, Some((key, span))) => Err(s.conflict(
+            &span,
+            format!("`{key}` is a spring under the bore, and the coupling \"{}\" has none", other.word()),
+            "write `coupling = \"elastic\"`, or leave it out",
+        )),
+    }
 }
 
 /// The mesh's own names; those of flanks need a place for the tooth number.

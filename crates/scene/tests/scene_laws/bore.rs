@@ -17,8 +17,11 @@ fn read(more: &str) -> Result<Scene, SceneError> {
 fn a_bore_is_read_as_it_is_written() {
     let scene = read("").unwrap();
     assert_eq!((scene.pinion.bore, scene.wheel.bore), (BoreScene::default(), BoreScene::default()));
+    let springs = "[pinion.bore]\ncoupling = \"elastic\"\ntangential_n_mm3 = 900\naxial_n_mm3 = 1e3\n";
+    let found = read(springs).unwrap().pinion.bore;
+    assert_eq!((found.coupling, found.springs()), (Coupling::Elastic, [0.0, 900.0, 1e3]));
     let scene = read("[wheel.bore]\nheld_mm = [-15.0, 2]\ncoupling = \"distributing\"\n").unwrap();
-    let wanted = BoreScene { held_mm: Some([-15.0, 2.0]), coupling: Coupling::Distributing };
+    let wanted = BoreScene { held_mm: Some([-15.0, 2.0]), coupling: Coupling::Distributing, ..BoreScene::default() };
     assert_eq!((scene.pinion.bore, scene.wheel.bore), (BoreScene::default(), wanted));
 }
 
@@ -33,10 +36,16 @@ fn bores_that_nothing_knows_are_refused() {
         ("[pinion.bore]\ncoupling = \"rbe3\"\n".into(), "distributing"),
         (format!("{part}[analysis]\nmodel = \"iso\"\n"), "means nothing to the model \"iso\""),
         (format!("{by_means}[analysis]\nmodel = \"full\"\n"), "the model \"full\" does not know"),
+        ("[pinion.bore]\ncoupling = \"elastic\"\n".into(), "let the gear turn about its axis"),
+        ("[pinion.bore]\ncoupling = \"elastic\"\ntangential_n_mm3 = 1.0\n".into(), "let the gear move along its axis"),
+        ("[pinion.bore]\naxial_n_mm3 = 1.0\n".into(), "the coupling \"kinematic\" has none"),
+        ("[pinion.bore]\ncoupling = \"elastic\"\naxial_n_mm3 = -1.0\n".into(), "axial_n_mm3"),
         (format!("{part}[accuracy]\nmean_ste = \"1 %\"\n"), "rigid bores"),
     ] {
         let error = read(&more).err().unwrap_or_else(|| panic!("not refused: {more}"));
         assert!(error.to_string().contains(said), "{more}: {error}");
     }
+    let springs = "[pinion.bore]\ncoupling = \"elastic\"\ntangential_n_mm3 = 1.0\naxial_n_mm3 = 1.0\n";
+    assert!(read(&format!("{springs}[analysis]\nmodel = \"full\"\n")).is_ok(), "springs, whole gear");
     assert!(read(&format!("{part}[analysis]\nmodel = \"full\"\n")).is_ok(), "a part of the bore, whole gear");
 }
