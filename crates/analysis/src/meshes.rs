@@ -4,7 +4,7 @@ use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
 use mesh::{
-    BoreCoupling, Extent, Foundation, GroupNames, Mesh, MeshError, MeshReport, MeshedGear, Severity, StructuredError,
+    BoreCoupling, Extent, GroupNames, Mesh, MeshError, MeshReport, MeshedGear, Severity, StructuredError,
     StructuredOptions, SurfaceGroup, generate,
 };
 
@@ -275,7 +275,7 @@ fn to_compute(
     let found = found.coupled(match gear.bore.coupling {
         Coupling::Kinematic => BoreCoupling::Kinematic,
         Coupling::Distributing => BoreCoupling::Distributing,
-        Coupling::Elastic => BoreCoupling::Elastic(Foundation::new(gear.bore.springs())?),
+        Coupling::Elastic => BoreCoupling::Elastic(gear.bore.foundation()?),
     });
     let copies = if found.is_periodic_sector() { found.tooth_count() as usize } else { 1 };
     if found.is_periodic_sector() {

@@ -15,7 +15,7 @@ pub enum BoreCoupling {
     /// ```
     /// The holding force is spread over the bore as a traction t = a + b x (x - c): six numbers, no local reaction.
     Distributing,
-    /// The bore stands on springs all around, which the shaft's cross-section carries.
+    /// The bore stands on springs, which the shaft's cross-section carries.
     Elastic(Foundation),
 }
 
@@ -26,6 +26,15 @@ impl BoreCoupling {
             Self::Kinematic => "kinematic",
             Self::Distributing => "distributing",
             Self::Elastic(_) => "elastic",
+        }
+    }
+
+    /// Whether each sector of a gear is held by itself, and like the others.
+    pub fn is_by_sectors(self) -> bool {
+        match self {
+            Self::Kinematic => true,
+            Self::Distributing => false,
+            Self::Elastic(foundation) => foundation.is_cyclic(),
         }
     }
 

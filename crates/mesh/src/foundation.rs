@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{Face, Mesh, MeshError};
+use crate::{Bolts, Face, Mesh, MeshError};
 
-/// Springs all around a bore, between its faces and the cross-section of the shaft.
+/// Springs between the faces of a bore and the cross-section of the shaft: all around, and at places of the gear.
 ///
 /// ```text
 /// t = -D u,   D = k_r e_r e_r' + k_t e_t e_t' + k_a e_z e_z'
@@ -21,56 +21,87 @@ use crate::{Face, Mesh, MeshError};
 /// a rigid one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foundation {
-    stiffness: [f64; 3],
+    all_around: [f64; 3],
+    bolts: Option<Bolts>,
 }
 
+/// A part of the springs, which acts on one point of a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringPoint {
+    /// The face.
+    pub face: Face,
+    /// Shape functions of its nodes at the point.
+    pub shape: [f64; 9],
+    /// Stiffness, N/mm, in the axes of the gear.
+    pub stiffness: Matrix3<f64>,
+}
+
+/// Bolts from which on no motion of a gear that only they hold is left to how wide they are.
+const FEWEST_BOLTS: u32 = 3;
+
 impl Foundation {
-    /// Radial, tangential and axial stiffness per area, N/mm^3, 0 where nothing holds. Tangential and axial springs hold
-    /// every motion of a body; without either of them one is left free.
+    /// Radial, tangential and axial stiffness per area all around, N/mm^3, 0 where nothing holds, and what holds at places.
+    /// Tangential and axial springs hold every motion of a body; without either of them one is left free.
     ///
     /// # Errors
-    /// [`MeshError::FreeBore`] if the gear could turn or move along its axis; [`MeshError::BadFoundation`] for a
-    /// stiffness that is negative or not finite.
-    pub fn new([radial, tangential, axial]: [f64; 3]) -> Result<Self, MeshError> {
-        let stiffness = [radial, tangential, axial];
-        if let Some(&found) = stiffness.iter().find(|k| !k.is_finite() || **k < 0.0) {
+    /// [`MeshError::FreeBore`] if the gear could turn or move along its axis; [`MeshError::FewBolts`] if only one or two
+    /// places hold it so; [`MeshError::BadFoundation`] for a stiffness that is negative or not finite.
+    pub fn new(all_around: [f64; 3], bolts: Option<Bolts>) -> Result<Self, MeshError> {
+        let at_places = bolts.map_or([0.0; 3], |bolts| bolts.stiffness);
+        if let Some(&found) = all_around.iter().chain(&at_places).find(|k| !k.is_finite() || **k < 0.0) {
             return Err(MeshError::BadFoundation { found });
         }
-        match (tangential > 0.0, axial > 0.0) {
-            (true, true) => Ok(Self { stiffness }),
-            (false, _) => Err(MeshError::FreeBore { motion: "turn about its axis", missing: "tangential" }),
-            (true, false) => Err(MeshError::FreeBore { motion: "move along its axis", missing: "axial" }),
+        let holds = |axis: usize| all_around[axis] + at_places[axis] > 0.0;
+        match (holds(1), holds(2)) {
+            (true, true) => {}
+            (false, _) => return Err(MeshError::FreeBore { motion: "turn about its axis", missing: "tangential" }),
+            (true, false) => return Err(MeshError::FreeBore { motion: "move along its axis", missing: "axial" }),
+        }
+        let alone = all_around[1] * all_around[2] == 0.0;
+        match bolts {
+            Some(bolts) if alone && bolts.count < FEWEST_BOLTS => {
+                Err(MeshError::FewBolts { count: bolts.count, fewest: FEWEST_BOLTS })
+            }
+            _ => Ok(Self { all_around, bolts }),
         }
     }
 
-    /// Radial, tangential and axial stiffness per area, N/mm^3.
-    pub fn stiffness(&self) -> [f64; 3] {
-        self.stiffness
+    /// Whether every tooth is held alike.
+    pub fn is_cyclic(&self) -> bool {
+        self.bolts.is_none()
     }
 
-    /// D at a place, N/mm^3, in the axes of the place. On the axis itself no direction is radial: there it is the mean of
-    /// those around.
-    fn at(&self, x: Vector3<f64>) -> Matrix3<f64> {
-        let [radial, tangential, axial] = self.stiffness;
-        let along = Vector3::z() * Vector3::z().transpose();
-        let across = Matrix3::identity() - along;
-        let outward = Vector3::new(x.x, x.y, 0.0);
-        let own = match outward.try_normalize(0.0) {
-            Some(e) => tangential * across + (radial - tangential) * e * e.transpose(),
-            None => 0.5 * (radial + tangential) * across,
-        };
-        own + axial * along
-    }
-
-    /// K_ij (N/mm) of a face, one block for every pair i >= j of its nodes in their order.
-    pub fn of_face(&self, mesh: &Mesh, face: &Face) -> Vec<([usize; 2], Matrix3<f64>)> {
-        let count = face.nodes().len();
-        let pairs = || (0..count).flat_map(|i| (0..=i).map(move |j| [i, j]));
-        let mut blocks: Vec<_> = pairs().map(|pair| (pair, Matrix3::zeros())).collect();
-        for point in face.area_points(mesh) {
-            let own = point.area * self.at(point.position);
-            blocks.iter_mut().for_each(|([i, j], block)| *block += point.shape[*i] * point.shape[*j] * own);
+    /// The springs under some faces.
+    ///
+    /// # Errors
+    /// [`MeshError::BoltOffBore`] if a bolt reaches beyond the faces.
+    pub fn springs(&self, mesh: &Mesh, faces: &[Face]) -> Result<Vec<SpringPoint>, MeshError> {
+        let mut all = Vec::new();
+        if self.all_around.iter().any(|k| *k > 0.0) {
+            for face in faces {
+                let spring = |point: crate::face_area::AreaPoint| SpringPoint {
+                    face: *face,
+                    shape: point.shape,
+                    stiffness: point.area * along_cylinder(self.all_around, point.position),
+                };
+                all.extend(face.area_points(mesh).map(spring));
+            }
         }
-        blocks
+        if let Some(bolts) = self.bolts {
+            all.extend(bolts.springs(mesh, faces)?);
+        }
+        Ok(all)
     }
+}
+
+/// Radial, tangential and axial numbers as a matrix in the axes of a place. On the axis itself no direction is radial: there
+/// it is the mean of those around.
+pub(crate) fn along_cylinder([radial, tangential, axial]: [f64; 3], x: Vector3<f64>) -> Matrix3<f64> {
+    let along = Vector3::z() * Vector3::z().transpose();
+    let across = Matrix3::identity() - along;
+    let own = match Vector3::new(x.x, x.y, 0.0).try_normalize(0.0) {
+        Some(e) => tangential * across + (radial - tangential) * e * e.transpose(),
+        None => 0.5 * (radial + tangential) * across,
+    };
+    own + axial * along
 }

@@ -3,6 +3,7 @@
 //! Lengths are in mm. The node order inside an element is Gmsh's for every kind.
 
 mod block;
+mod bolts;
 mod bore;
 mod bore_coupling;
 mod bore_fit;
@@ -26,13 +27,14 @@ mod sector;
 pub mod structured;
 mod tips;
 
+pub use bolts::Bolts;
 pub use bore_coupling::BoreCoupling;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;
 pub use faces::{FaceOwner, FaceTable};
 pub use flank_fit::{DEFAULT_TOLERANCE_MODULES, FlankDeviation, FlankFit};
-pub use foundation::Foundation;
+pub use foundation::{Foundation, SpringPoint};
 pub use gear_mesh::MeshedGear;
 pub use group_names::GroupNames;
 pub use info::{GroupInfo, LikelyGear, MeshInfo};

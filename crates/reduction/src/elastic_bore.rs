@@ -38,13 +38,18 @@ impl ElasticBore {
         dofs: &DofMap,
     ) -> Result<SymmetricMatrix, ReductionError> {
         let mut stiffness = fem::assemble_stiffness(mesh, material, dofs, elements)?;
-        for (bore, face) in own.into_iter().flat_map(|bore| bore.faces.iter().map(move |face| (bore, face))) {
-            for ([i, j], block) in bore.foundation.of_face(mesh, face) {
-                let nodes = face.nodes();
+        let springs = match own {
+            Some(bore) => bore.foundation.springs(mesh, &bore.faces).map_err(ReductionError::bore)?,
+            None => Vec::new(),
+        };
+        for spring in springs {
+            let nodes = spring.face.nodes();
+            for (i, j) in (0..nodes.len()).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+                let share = spring.shape[i] * spring.shape[j];
                 // A block on the diagonal has its mirror image in itself.
                 for (a, b) in (0..3).flat_map(|a| (0..3).map(move |b| (a, b))).filter(|(a, b)| i > j || a >= b) {
                     if let (Some(row), Some(column)) = (dofs.dof(nodes[i], a), dofs.dof(nodes[j], b)) {
-                        stiffness.add(row, column, block[(a, b)])?;
+                        stiffness.add(row, column, share * spring.stiffness[(a, b)])?;
                     }
                 }
             }

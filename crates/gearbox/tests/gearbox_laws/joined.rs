@@ -31,7 +31,7 @@ fn exact((structure, meshes, run): Parts, torque: f64, coupling: BoreCoupling, j
 
 /// Springs all around a bore, as soft as a needle bearing's.
 fn on_springs() -> BoreCoupling {
-    BoreCoupling::Elastic(Foundation::new([2e3, 1e3, 1e3]).unwrap())
+    BoreCoupling::Elastic(Foundation::new([2e3, 1e3, 1e3], None).unwrap())
 }
 
 fn solve(gearbox: &mut StaticGearbox, angle: f64) -> GearboxPosition {

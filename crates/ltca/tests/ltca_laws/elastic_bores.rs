@@ -7,7 +7,7 @@ use testing::{Case, default_data, planet_in_ring, quadratic};
 
 /// The case with both bores on springs, N/mm^3; the outside of a ring.
 fn on_springs(mut case: Case, stiffness: [f64; 3]) -> Case {
-    let coupling = BoreCoupling::Elastic(Foundation::new(stiffness).unwrap());
+    let coupling = BoreCoupling::Elastic(Foundation::new(stiffness, None).unwrap());
     case.meshes = case.meshes.map(|gear: MeshedGear| gear.coupled(coupling));
     case
 }

@@ -24,7 +24,8 @@ impl PitchTurn {
     /// Turn by one pitch of a whole gear; `None` unless every node, element, flank and held node has its image.
     pub(crate) fn of_gear(gear: &MeshedGear) -> Option<Self> {
         let mesh = gear.mesh();
-        if !gear.is_whole_gear() {
+        let alike = gear.bore_coupling().foundation().is_none_or(|springs| springs.is_cyclic());
+        if !gear.is_whole_gear() || !alike {
             return None;
         }
         let size = mesh.nodes.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));

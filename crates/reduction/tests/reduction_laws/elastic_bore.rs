@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use reduction::{FullGear, GearReducer, ModeChoice, ReductionWay, record_key};
 
 fn on_springs(mesh: MeshedGear, stiffness: [f64; 3]) -> MeshedGear {
-    mesh.coupled(BoreCoupling::Elastic(Foundation::new(stiffness).unwrap()))
+    mesh.coupled(BoreCoupling::Elastic(Foundation::new(stiffness, None).unwrap()))
 }
 
 fn dense(matrix: &fem::SymmetricMatrix) -> DMatrix<f64> {
@@ -296,8 +296,8 @@ fn springs_that_leave_a_gear_free_are_refused() {
         ([-1.0, 1.0, 1.0], "-1 N/mm^3"),
         ([1.0, f64::NAN, 1.0], "NaN"),
     ] {
-        let error: MeshError = Foundation::new(springs).unwrap_err();
+        let error: MeshError = Foundation::new(springs, None).unwrap_err();
         assert!(error.to_string().contains(said) && error.hint().is_some(), "{error}");
     }
-    assert!(Foundation::new([0.0, 1.0, 1.0]).is_ok(), "what turns and slides on springs is held across too");
+    assert!(Foundation::new([0.0, 1.0, 1.0], None).is_ok(), "what turns and slides on springs is held across too");
 }

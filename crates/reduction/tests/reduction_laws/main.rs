@@ -1,5 +1,6 @@
 //! Laws of the crate `reduction`.
 
+mod bolts;
 mod bore;
 mod common;
 mod cyclic;

@@ -1,14 +1,15 @@
 //! Checks of the gears and of the data common to both.
 
 use geometry::{GearData, Shaper};
-use mesh::{Foundation, GroupNames, Mesh};
+use mesh::{GroupNames, Mesh};
 use toml::Spanned;
 
 use super::Checked;
+use super::bore::bore;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    BoreScene, Coupling, DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
-    schema::{GEAR, MESHER, PAIR, RawBore, RawGear, RawGroups, RawMesher, RawPair, RawShaper},
+    DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
+    schema::{GEAR, MESHER, PAIR, RawGear, RawGroups, RawMesher, RawPair, RawShaper},
     source::Source,
     spanned::{Number, Word},
 };
@@ -261,43 +262,6 @@ fn mesher_options(
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
         ..read
     })
-}
-
-/// How the bore is held; on which part of it, the mesh says whether it has that.
-fn bore(s: &Source<'_>, table: &Spanned<RawBore>) -> Checked<BoreScene> {
-    let raw = table.get_ref();
-    let held_mm = match &raw.held_mm {
-        None => None,
-        Some(list) => {
-            let values = list.get_ref().iter().map(|v| s.number("held_mm", &Some(v.clone()), 0.0, -1e6, 1e6));
-            match values.collect::<Checked<Vec<_>>>()?[..] {
-                [from, to] if from < to => Some([from, to]),
-                _ => {
-                    let what = "`held_mm` is not two heights, the lower one first";
-                    return Err(s.conflict(&list.span(), what, "for example held_mm = [-10.0, 4.0], mm from mid-face"));
-                }
-            }
-        }
-    };
-    let bore = BoreScene { held_mm, ..BoreScene::read(s, raw, f64::INFINITY)? };
-    let springs = [
-        ("radial_n_mm3", &raw.radial_n_mm3),
-        ("tangential_n_mm3", &raw.tangential_n_mm3),
-        ("axial_n_mm3", &raw.axial_n_mm3),
-    ];
-    let stated = springs.iter().find_map(|(key, value)| Some((key, value.as_ref()?.span())));
-    match (bore.coupling, stated) {
-        (Coupling::Elastic, _) => {
-            let held = Foundation::new(bore.springs()).map(|_| bore);
-            held.map_err(|e| s.conflict(&table.span(), e.to_string(), e.hint().unwrap_or_default()))
-        }
-        (_, None) => Ok(bore),
-        (other, Some((key, span))) => Err(s.conflict(
-            &span,
-            format!("`{key}` is a spring under the bore, and the coupling \"{}\" has none", other.word()),
-            "write `coupling = \"elastic\"`, or leave it out",
-        )),
-    }
 }
 
 /// The mesh's own names; those of flanks need a place for the tooth number.
