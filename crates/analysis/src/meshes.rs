@@ -275,6 +275,7 @@ fn to_compute(
     let found = found.coupled(match gear.bore.coupling {
         Coupling::Kinematic => BoreCoupling::Kinematic,
         Coupling::Distributing => BoreCoupling::Distributing,
+        Coupling::Elastic => BoreCoupling::Elastic(gear.bore.foundation()?),
     });
     let copies = if found.is_periodic_sector() { found.tooth_count() as usize } else { 1 };
     if found.is_periodic_sector() {

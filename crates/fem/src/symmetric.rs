@@ -93,21 +93,18 @@ impl SymmetricMatrix {
             .flat_map(move |column| (starts[column]..starts[column + 1]).map(move |k| (rows[k], column, values[k])))
     }
 
-    /// Adds a value to one entry of the diagonal.
+    /// Adds a value to one stored entry of the lower triangle, or to that and its mirror image.
     ///
     /// # Errors
-    /// [`FemError::BadDof`] if the diagonal has no such entry.
-    pub fn add_to_diagonal(&mut self, dof: usize, value: f64) -> Result<(), FemError> {
-        let count = self.n();
+    /// [`FemError::BadDof`] if no such entry is stored.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) -> Result<(), FemError> {
+        let (row, column, count) = (row.max(column), row.min(column), self.n());
         let (starts, rows, _) = self.arrays();
-        // The rows of a column ascend from the diagonal on.
-        match starts.get(dof).filter(|_| dof < count).filter(|start| rows.get(**start) == Some(&dof)) {
-            Some(&at) => {
-                self.lower.val_mut()[at] += value;
-                Ok(())
-            }
-            None => Err(FemError::BadDof { dof, count }),
-        }
+        let bad = FemError::BadDof { dof: row, count };
+        let (Some(&start), Some(&end)) = (starts.get(column), starts.get(column + 1)) else { return Err(bad) };
+        let at = start + rows[start..end].binary_search(&row).map_err(|_| bad)?;
+        self.lower.val_mut()[at] += value;
+        Ok(())
     }
 
     /// Entries of the diagonal.

@@ -3,8 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector3;
-
 use crate::{BoreCoupling, Face, MeshError, MeshedGear, SurfaceGroup};
 
 impl MeshedGear {
@@ -44,12 +42,11 @@ impl MeshedGear {
         self.coupling
     }
 
-    /// Nodes that do not move in the gear's frame, ascending: all held nodes of a rigid bore, none for a distributing
-    /// coupling.
+    /// Nodes that do not move in the gear's frame, ascending: all held nodes of a rigid bore, none for another coupling.
     pub fn held_nodes(&self) -> &[u32] {
         match self.coupling {
             BoreCoupling::Kinematic => self.bore_nodes(),
-            BoreCoupling::Distributing => &[],
+            BoreCoupling::Distributing | BoreCoupling::Elastic(_) => &[],
         }
     }
 
@@ -57,20 +54,10 @@ impl MeshedGear {
     /// with them. The integrals of corner nodes of quadratic faces are negative.
     pub fn bore_weights(&self) -> Vec<(u32, f64)> {
         let mut all: BTreeMap<u32, f64> = BTreeMap::new();
-        let (mut n, mut dn) = ([0.0; 9], [[0.0; 2]; 9]);
         for face in &self.bore.faces {
-            for q in face.kind.quadrature() {
-                face.kind.shape(q.xi, &mut n);
-                face.kind.shape_gradient(q.xi, &mut dn);
-                let mut t = [Vector3::zeros(); 2];
-                for (g, &node) in dn.iter().zip(face.nodes()) {
-                    let x = Vector3::from(self.mesh.nodes[node as usize]);
-                    t[0] += g[0] * x;
-                    t[1] += g[1] * x;
-                }
-                let area = q.weight * t[0].cross(&t[1]).norm();
-                for (value, &node) in n.iter().zip(face.nodes()) {
-                    *all.entry(node).or_default() += value * area;
+            for point in face.area_points(&self.mesh) {
+                for (value, &node) in point.shape.iter().zip(face.nodes()) {
+                    *all.entry(node).or_default() += value * point.area;
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! How a gear's bore follows its shaft.
 
-/// Coupling of the bore to the shaft, with the names that finite-element programs use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+use crate::Foundation;
+
+/// Coupling of the bore to the shaft; the first two have the names that finite-element programs use.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum BoreCoupling {
     /// Every node of the bore moves with the shaft's cross-section: a rigid bore.
     #[default]
@@ -13,6 +15,8 @@ pub enum BoreCoupling {
     /// ```
     /// The holding force is spread over the bore as a traction t = a + b x (x - c): six numbers, no local reaction.
     Distributing,
+    /// The bore stands on springs, which the shaft's cross-section carries.
+    Elastic(Foundation),
 }
 
 impl BoreCoupling {
@@ -21,6 +25,24 @@ impl BoreCoupling {
         match self {
             Self::Kinematic => "kinematic",
             Self::Distributing => "distributing",
+            Self::Elastic(_) => "elastic",
+        }
+    }
+
+    /// Whether each sector of a gear is held by itself, and like the others.
+    pub fn is_by_sectors(self) -> bool {
+        match self {
+            Self::Kinematic => true,
+            Self::Distributing => false,
+            Self::Elastic(foundation) => foundation.is_cyclic(),
+        }
+    }
+
+    /// The springs under the bore, if it stands on any.
+    pub fn foundation(self) -> Option<Foundation> {
+        match self {
+            Self::Kinematic | Self::Distributing => None,
+            Self::Elastic(foundation) => Some(foundation),
         }
     }
 }

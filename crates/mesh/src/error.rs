@@ -122,6 +122,38 @@ pub enum MeshError {
         /// Greatest height of the bore, mm.
         high_mm: f64,
     },
+    /// An elastic foundation of the bore with a stiffness that is none.
+    #[error("the stiffness of an elastic bore is {found} N/mm^3, and must be finite and at least 0")]
+    BadFoundation {
+        /// The stiffness, N/mm^3.
+        found: f64,
+    },
+    /// An elastic foundation of the bore that leaves the gear a motion.
+    #[error("the springs of the elastic bore let the gear {motion}: it has no {missing} stiffness")]
+    FreeBore {
+        /// What the gear may do.
+        motion: &'static str,
+        /// Direction without a spring.
+        missing: &'static str,
+    },
+    /// Too few places that hold a gear by themselves.
+    #[error("{count} bolts alone hold the gear, and let it tilt about the line between them: it takes {fewest}")]
+    FewBolts {
+        /// Number of bolts.
+        count: u32,
+        /// Fewest that hold.
+        fewest: u32,
+    },
+    /// A bolt that touches more than the bore.
+    #[error("bolt {bolt} reaches beyond the held faces of the bore, at {angle_deg:.3} deg, z {z_mm:.4} mm")]
+    BoltOffBore {
+        /// Number of the bolt, from 0.
+        bolt: u32,
+        /// Angle of the place, deg.
+        angle_deg: f64,
+        /// Height of the place, mm.
+        z_mm: f64,
+    },
     /// The mesh is not a sector with two cuts, and only such a sector can be repeated.
     #[error("the mesh is no periodic sector: it has no cuts")]
     NoCuts,
@@ -228,6 +260,17 @@ impl MeshError {
             Self::TooLarge { .. } => "make the sector's mesh coarser",
             Self::NotHeld { .. } => {
                 "whole faces of the mesh are held: hold a longer part, or mesh the bore finer along the face"
+            }
+            Self::FewBolts { .. } => {
+                "give the bore `tangential_n_per_mm3` and `axial_n_per_mm3` too, or state more bolts"
+            }
+            Self::BoltOffBore { .. } => "set `over_mm` of the bolts to a part of what is held, and mesh the whole bore",
+            Self::BadFoundation { .. } => "leave the key out where nothing holds",
+            Self::FreeBore { missing: "axial", .. } => {
+                "state `axial_n_per_mm3` too; without axial forces any small stiffness gives the same answer"
+            }
+            Self::FreeBore { .. } => {
+                "state `tangential_n_per_mm3` too; where no torque passes, as on a bearing, a thousandth of the radial one will do"
             }
             Self::NoBore { .. } => "set bore_diameter_mm to that of the mesh, or name the bore's group",
         };

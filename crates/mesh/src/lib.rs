@@ -3,14 +3,17 @@
 //! Lengths are in mm. The node order inside an element is Gmsh's for every kind.
 
 mod block;
+mod bolts;
 mod bore;
 mod bore_coupling;
 mod bore_fit;
 mod check;
 pub mod element;
 pub mod error;
+mod face_area;
 mod faces;
 mod flank_fit;
+mod foundation;
 mod gear_mesh;
 mod group_names;
 mod info;
@@ -24,12 +27,14 @@ mod sector;
 pub mod structured;
 mod tips;
 
+pub use bolts::Bolts;
 pub use bore_coupling::BoreCoupling;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;
 pub use faces::{FaceOwner, FaceTable};
 pub use flank_fit::{DEFAULT_TOLERANCE_MODULES, FlankDeviation, FlankFit};
+pub use foundation::{Foundation, SpringPoint};
 pub use gear_mesh::MeshedGear;
 pub use group_names::GroupNames;
 pub use info::{GroupInfo, LikelyGear, MeshInfo};

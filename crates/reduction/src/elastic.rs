@@ -1,6 +1,6 @@
 //! The elastic gears of an analysis, reduced or with all their degrees of freedom.
 
-use crate::{GearReducer, ReductionError, Window};
+use crate::{GearReducer, ReductionError, Window, elastic_bore::ElasticBore};
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::{BoreCoupling, MeshedGear};
 
@@ -29,7 +29,8 @@ impl FullGear {
             return Err(ReductionError::NotReduced);
         }
         let dofs = DofMap::new(gear.mesh().nodes.len(), gear.held_nodes());
-        let stiffness = fem::assemble_stiffness(gear.mesh(), &material, &dofs, elements)?;
+        let bore = ElasticBore::of(&gear);
+        let stiffness = ElasticBore::stiffness(bore.as_ref(), gear.mesh(), (&material, elements), &dofs)?;
         Ok(Self { gear, material, elements: *elements, dofs, stiffness })
     }
 }

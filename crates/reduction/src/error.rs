@@ -17,6 +17,14 @@ pub enum ReductionError {
         /// Hint of the mesh error.
         hint: Option<String>,
     },
+    /// The springs under a bore do not fit its mesh.
+    #[error("{said}")]
+    Bore {
+        /// Message of the mesh error.
+        said: String,
+        /// Hint of the mesh error.
+        hint: Option<String>,
+    },
     /// The mesh does not have this flank.
     #[error("the mesh has no {} flank of tooth {tooth}; it has teeth {available:?}", side.name())]
     MissingFlank {
@@ -114,6 +122,11 @@ impl From<mesh::MeshError> for ReductionError {
 }
 
 impl ReductionError {
+    /// An error of the springs under a bore.
+    pub(crate) fn bore(e: mesh::MeshError) -> Self {
+        Self::Bore { said: e.to_string(), hint: e.hint() }
+    }
+
     /// Whether the work was cancelled because its result is no longer wanted.
     pub fn is_unwanted(&self) -> bool {
         matches!(self, Self::Fem(fem::FemError::Unwanted))
@@ -128,7 +141,7 @@ impl ReductionError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Fem(e) => e.hint(),
-            Self::Sector { hint, .. } => hint.clone(),
+            Self::Sector { hint, .. } | Self::Bore { hint, .. } => hint.clone(),
             Self::MissingFlank { available, .. } => Some(format!(
                 "the window slides over {} teeth of the mesh: mesh the whole gear, or run fewer cycles or a narrower window",
                 available.len()

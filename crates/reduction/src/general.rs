@@ -6,7 +6,7 @@ use faer::{Mat, MatMut};
 use fem::{DofMap, ElementOptions, Material, PartedFactor, StressOperator, Wanted, dense, unless_unwanted};
 use mesh::{BoreCoupling, Mesh, MeshedGear};
 
-use crate::{ReductionError, load::Load, mean_seat::MeanSeat};
+use crate::{ReductionError, elastic_bore::ElasticBore, load::Load, mean_seat::MeanSeat};
 
 /// Columns of all free degrees of freedom held at a time: 256 of 10^5 freedoms are 200 MB.
 const COLUMNS: usize = 256;
@@ -40,9 +40,10 @@ impl GeneralGear {
     ) -> Result<Self, ReductionError> {
         let mesh = gear.mesh();
         let dofs = DofMap::new(mesh.nodes.len(), gear.held_nodes());
-        let mut stiffness = fem::assemble_stiffness(mesh, material, &dofs, elements)?;
+        let bore = ElasticBore::of(gear);
+        let mut stiffness = ElasticBore::stiffness(bore.as_ref(), mesh, (material, elements), &dofs)?;
         let seat = match gear.bore_coupling() {
-            BoreCoupling::Kinematic => None,
+            BoreCoupling::Kinematic | BoreCoupling::Elastic(_) => None,
             BoreCoupling::Distributing => Some(MeanSeat::new(gear, &dofs)?),
         };
         if let Some(seat) = &seat {

@@ -13,6 +13,7 @@
 
 mod cyclic;
 mod elastic;
+mod elastic_bore;
 mod error;
 mod general;
 mod kept_table;

@@ -74,7 +74,7 @@ impl MeanSeat {
     pub(crate) fn held(&self, mut stiffness: SymmetricMatrix) -> Result<SymmetricMatrix, ReductionError> {
         let diagonal = stiffness.diagonal();
         for dof in self.springs {
-            stiffness.add_to_diagonal(dof, diagonal[dof])?;
+            stiffness.add(dof, dof, diagonal[dof])?;
         }
         Ok(stiffness)
     }

@@ -1,6 +1,6 @@
 //! The gears, and the data common to both.
 
-use mesh::FaceResolution;
+use mesh::{Bolts, FaceResolution, Foundation, MeshError};
 
 use crate::schema::{BoreScene, GearScene, MisalignmentScene, PairScene};
 
@@ -8,6 +8,21 @@ impl BoreScene {
     /// Whether the whole bore is rigid.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// The springs of an elastic bore.
+    ///
+    /// # Errors
+    /// As [`Foundation::new`].
+    pub fn foundation(&self) -> Result<Foundation, MeshError> {
+        let bolts = self.bolts.map(|bolts| Bolts {
+            count: bolts.count,
+            first_angle: bolts.first_angle_deg.to_radians(),
+            width: bolts.width_mm,
+            heights: bolts.over_mm,
+            stiffness: [bolts.radial_n_per_mm, bolts.tangential_n_per_mm, bolts.axial_n_per_mm],
+        });
+        Foundation::new([self.radial_n_per_mm3, self.tangential_n_per_mm3, self.axial_n_per_mm3], bolts)
     }
 }
 

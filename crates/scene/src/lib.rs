@@ -86,12 +86,13 @@ pub use motion::{DriveScene, TorqueScene};
 pub use places::Written;
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
-    Analysis, Axis, BasinScene, BearingScene, BodyScene, BoreScene, Boundary, ContactScene, ContinuationKey,
-    ContinuationScene, Coupling, DiscScene, DriveBy, FieldName, FlankScene, Flanks, Gap, GearScene, ImpactScene,
-    Integration, Kind, Law, LubricationScene, Lumped8Scene, Lumped12Scene, Material, MeshScene, MesherScene, Method,
-    MisalignmentScene, Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene, PairScene, Quantity,
-    RampScene, RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene,
-    ShaperScene, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
+    Analysis, Axis, BasinScene, BearingScene, BodyScene, BoltsScene, BoreScene, Boundary, ContactScene,
+    ContinuationKey, ContinuationScene, Coupling, DiscScene, DriveBy, FieldName, FlankScene, Flanks, Gap, GearScene,
+    ImpactScene, Integration, Kind, Law, LubricationScene, Lumped8Scene, Lumped12Scene, Material, MeshScene,
+    MesherScene, Method, MisalignmentScene, Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene,
+    PairScene, Quantity, RampScene, RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene,
+    ShaftCoordinate, ShaftScene, ShaperScene, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay,
+    all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use gearbox::{ExactMesh, GearMesh, GearboxPosition, MeshElement, Operation, StaticGearbox, Structure};
-use mesh::{BoreCoupling, MeshedGear, StructuredOptions};
+use mesh::{BoreCoupling, Foundation, MeshedGear, StructuredOptions};
 use testing::Case;
 
 use crate::{
@@ -29,6 +29,11 @@ fn exact((structure, meshes, run): Parts, torque: f64, coupling: BoreCoupling, j
     if joined { made.joined() } else { made }
 }
 
+/// Springs all around a bore, as soft as a needle bearing's.
+fn on_springs() -> BoreCoupling {
+    BoreCoupling::Elastic(Foundation::new([2e3, 1e3, 1e3], None).unwrap())
+}
+
 fn solve(gearbox: &mut StaticGearbox, angle: f64) -> GearboxPosition {
     let found = gearbox.solve(angle).unwrap_or_else(|e| panic!("{e}"));
     let certificate = &found.certificate;
@@ -38,11 +43,11 @@ fn solve(gearbox: &mut StaticGearbox, angle: f64) -> GearboxPosition {
 
 /// Planets, all at the same phase of their meshes, carry alike, whoever of them is looked at: sun and ring pass on between all
 /// of them what turns with the stage, though teeth are counted anew round the ring of gears. Rigid bores let bodies pass on
-/// little, bores that are held by their means let them pass on more.
+/// little, bores that are held by their means or on springs let them pass on more.
 #[test]
 fn planets_at_one_phase_carry_alike_on_common_bodies() {
     let stage = Stage { count: 4, torque: 2e5, ..STAGE };
-    let passed_on = [BoreCoupling::Kinematic, BoreCoupling::Distributing].map(|coupling| {
+    let passed_on = [BoreCoupling::Kinematic, BoreCoupling::Distributing, on_springs()].map(|coupling| {
         let mut lags = [[0.0; 2]; 2];
         for (joined, lags) in [false, true].into_iter().zip(&mut lags) {
             let mut gearbox = exact(stage.parts(), stage.torque, coupling, joined);
@@ -60,8 +65,9 @@ fn planets_at_one_phase_carry_alike_on_common_bodies() {
         println!("{coupling:?}: lags {:?} rad alone, {:?} rad on common bodies", lags[0], lags[1]);
         lags[0].iter().zip(&lags[1]).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
     });
-    let [rigid, means] = passed_on;
+    let [rigid, means, springs] = passed_on;
     assert!(rigid > 1e-4 && means > 2.0 * rigid, "the lag changes by {rigid:e} of itself, and by {means:e}");
+    assert!(springs > 2.0 * rigid, "the lag changes by {rigid:e} of itself, and by {springs:e}");
 }
 
 /// Windows of both meshes of an idler change their teeth at instants of their own; the compliance between them goes with the
@@ -69,7 +75,7 @@ fn planets_at_one_phase_carry_alike_on_common_bodies() {
 #[test]
 fn nothing_jumps_where_teeth_change_on_a_common_body() {
     use BoreCoupling::{Distributing, Kinematic};
-    for (helix_deg, coupling) in [(0.0, Kinematic), (15.0, Kinematic), (15.0, Distributing)] {
+    for (helix_deg, coupling) in [(0.0, Kinematic), (15.0, Kinematic), (15.0, Distributing), (15.0, on_springs())] {
         let mut gearbox = exact(row(1.0, helix_deg, true), 1.5e5, coupling, true);
         let pitch = std::f64::consts::TAU / 20.0;
         let mut changes = 0;

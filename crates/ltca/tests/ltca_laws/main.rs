@@ -6,6 +6,7 @@ mod calculix;
 mod contact_ratio;
 mod corner_contact;
 mod crowning;
+mod elastic_bores;
 mod face_widths;
 mod given_poses;
 mod gmsh_meshes;

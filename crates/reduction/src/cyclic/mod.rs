@@ -107,7 +107,7 @@ impl CyclicGear {
     /// Whether another gear is made of the same sector.
     pub(crate) fn has_sector_of(&self, other: &Self) -> bool {
         let [a, b] = [&self.part, &other.part];
-        a.teeth == b.teeth && a.way == b.way && a.mesh == b.mesh && a.held == b.held
+        a.teeth == b.teeth && a.way == b.way && a.mesh == b.mesh && a.held == b.held && a.bore == b.bore
     }
 
     /// Copy and node of the sector under a node of the larger mesh.

@@ -5,7 +5,7 @@ use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, Wanted, dense, u
 use mesh::Mesh;
 
 use super::{SectorMesh, chain::stacked};
-use crate::{ReductionError, load::Load};
+use crate::{ReductionError, elastic_bore::ElasticBore, load::Load};
 
 /// Columns of full length that are held at a time: 256 of 10^5 freedoms are 200 MB.
 const COLUMNS: usize = 256;
@@ -71,7 +71,8 @@ impl Sector {
         let factor = match known.filter(fits) {
             Some(known) => known,
             None => {
-                let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;
+                let bore = part.bore.as_ref();
+                let stiffness = ElasticBore::stiffness(bore, &part.mesh, (material, elements), &dofs)?;
                 BoundaryLastFactor::in_place_of(stiffness, &boundary, wanted)?
             }
         };

@@ -7,6 +7,7 @@ use mesh::{Copies, ElementBlock, Mesh, MeshedGear, Origin};
 use nalgebra::{DMatrix, DVector};
 
 use super::turn::{PitchTurn, face_nodes};
+use crate::elastic_bore::ElasticBore;
 
 /// A sector and the mesh whose nodes lie in its copies.
 ///
@@ -21,6 +22,8 @@ pub(crate) struct SectorMesh {
     pub mesh: Mesh,
     /// Nodes that do not move, numbers of the sector.
     pub held: Vec<u32>,
+    /// What stands on springs in their place.
+    pub bore: Option<ElasticBore>,
     /// Nodes of the left cut and those of the right one on which they fall when turned by one pitch, held ones too.
     pub cuts: Vec<[u32; 2]>,
     /// Copy and node of the sector (never of the right cut) under each node of the larger mesh.
@@ -50,7 +53,8 @@ impl SectorMesh {
         held.sort_unstable();
         held.dedup();
         let places = copies.origins.clone();
-        Some(Self::new(teeth, sector.numbering_sign(), sector.mesh().clone(), held, cuts, places))
+        let bore = ElasticBore::of(sector);
+        Some(Self::new((teeth, sector.numbering_sign()), sector.mesh().clone(), (held, bore), cuts, places))
     }
 
     /// Sector mesh of a whole gear that is cyclic: the elements about tooth 0.
@@ -107,17 +111,24 @@ impl SectorMesh {
         }
         let nodes = own.iter().map(|&n| mesh.nodes[n as usize]).collect();
         let node_tags = own.iter().map(|&n| mesh.node_tags[n as usize]).collect();
-        let own = Mesh { nodes, node_tags, blocks, ..Mesh::default() };
-        Some(Self::new(teeth, gear.numbering_sign(), own, held, cuts, places))
+        let part = Mesh { nodes, node_tags, blocks, ..Mesh::default() };
+        let bore = ElasticBore::of(gear).map(|bore| bore.in_part(&part, |n| used[n as usize].then(|| number(n))));
+        Some(Self::new((teeth, gear.numbering_sign()), part, (held, bore), cuts, places))
     }
 
-    fn new(teeth: u32, way: f64, mesh: Mesh, held: Vec<u32>, cuts: Vec<[u32; 2]>, places: Vec<Origin>) -> Self {
+    fn new(
+        (teeth, way): (u32, f64),
+        mesh: Mesh,
+        (held, bore): (Vec<u32>, Option<ElasticBore>),
+        cuts: Vec<[u32; 2]>,
+        places: Vec<Origin>,
+    ) -> Self {
         let count = mesh.nodes.len();
         let mut numbers = vec![NOWHERE; count * teeth as usize];
         for (place, number) in places.iter().zip(0..) {
             numbers[place.copy as usize * count + place.node as usize] = number;
         }
-        Self { teeth, way, mesh, held, cuts, places, numbers }
+        Self { teeth, way, mesh, held, bore, cuts, places, numbers }
     }
 
     /// The larger mesh's node at a place.

@@ -24,13 +24,21 @@ impl PitchTurn {
     /// Turn by one pitch of a whole gear; `None` unless every node, element, flank and held node has its image.
     pub(crate) fn of_gear(gear: &MeshedGear) -> Option<Self> {
         let mesh = gear.mesh();
-        if !gear.is_whole_gear() {
+        let alike = gear.bore_coupling().foundation().is_none_or(|springs| springs.is_cyclic());
+        if !gear.is_whole_gear() || !alike {
             return None;
         }
         let size = mesh.nodes.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let turn = Self::new(mesh, gear.pitches_on(1), CYCLIC_TOLERANCE * size)?;
         let image = |nodes: &[u32]| sorted(&nodes.iter().map(|&n| turn.nodes[n as usize]).collect::<Vec<_>>());
-        let same_bore = image(gear.bore_nodes()) == gear.bore_nodes();
+        let faces = || gear.bore().faces.iter();
+        let mut keys: Vec<[u32; 4]> = faces().map(Face::corner_key).collect();
+        keys.sort_unstable();
+        let moved = |face: &Face| {
+            let nodes: Vec<u32> = face.nodes().iter().map(|&n| turn.nodes[n as usize]).collect();
+            keys.binary_search(&Face::new(face.kind, &nodes).corner_key()).is_ok()
+        };
+        let same_bore = faces().all(moved);
         let mut flanks = gear.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]);
         let nodes = |tooth, side| gear.flank(tooth, side).map(face_nodes);
         let same_flanks = flanks.all(|(tooth, side)| nodes(tooth, side).map(|n| image(&n)) == nodes(tooth + 1, side));

@@ -75,8 +75,11 @@ fn mesh(hasher: &mut Hasher, gear: &MeshedGear) {
     // A rigid bore is what records knew before there was another.
     if gear.bore_coupling() != BoreCoupling::Kinematic {
         hasher.update(gear.bore_coupling().name().as_bytes());
-        // Weights of the means come of the faces, which need not be those that their nodes have.
+        // Means and springs come of the faces, which need not be those that their nodes have.
         gear.bore().faces.iter().for_each(|face| numbers(hasher, face.nodes()));
+        if let Some(springs) = gear.bore_coupling().foundation() {
+            hasher.update(format!("{springs:?}").as_bytes());
+        }
     }
     for cut in gear.cuts().into_iter().flatten() {
         numbers(hasher, &cut.nodes());

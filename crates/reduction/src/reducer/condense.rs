@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fem::{BoundaryLastFactor, Material, unless_unwanted};
-use mesh::{BoreCoupling, MeshedGear};
+use mesh::MeshedGear;
 
 use super::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 use crate::{
@@ -128,8 +128,8 @@ fn ready<E: From<ReductionError>>(
     coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
 ) -> Result<Ready, E> {
     let mut turn = PitchTurn::of_gear(&gear);
-    // The means of a bore join all sectors.
-    let general = general || gear.bore_coupling() == BoreCoupling::Distributing;
+    // The means of a bore join all sectors, and bolts stand at some of them.
+    let general = general || !gear.bore_coupling().is_by_sectors();
     let sectors = if general { None } else { sectors(&gear, turn.as_ref(), options)? };
     if let Some((part, copies)) = sectors {
         let seen = copies.as_ref().unwrap_or(&gear);

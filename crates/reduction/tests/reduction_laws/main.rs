@@ -1,8 +1,10 @@
 //! Laws of the crate `reduction`.
 
+mod bolts;
 mod bore;
 mod common;
 mod cyclic;
+mod elastic_bore;
 mod holes;
 mod modes;
 mod record;

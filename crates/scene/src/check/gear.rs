@@ -5,10 +5,11 @@ use mesh::{GroupNames, Mesh};
 use toml::Spanned;
 
 use super::Checked;
+use super::bore::bore;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    BoreScene, DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
-    schema::{GEAR, MESHER, PAIR, RawBore, RawGear, RawGroups, RawMesher, RawPair, RawShaper},
+    DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
+    schema::{GEAR, MESHER, PAIR, RawGear, RawGroups, RawMesher, RawPair, RawShaper},
     source::Source,
     spanned::{Number, Word},
 };
@@ -261,25 +262,6 @@ fn mesher_options(
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
         ..read
     })
-}
-
-/// How the bore is held; on which part of it, the mesh says whether it has that.
-fn bore(s: &Source<'_>, table: &Spanned<RawBore>) -> Checked<BoreScene> {
-    let raw = table.get_ref();
-    let held_mm = match &raw.held_mm {
-        None => None,
-        Some(list) => {
-            let values = list.get_ref().iter().map(|v| s.number("held_mm", &Some(v.clone()), 0.0, -1e6, 1e6));
-            match values.collect::<Checked<Vec<_>>>()?[..] {
-                [from, to] if from < to => Some([from, to]),
-                _ => {
-                    let what = "`held_mm` is not two heights, the lower one first";
-                    return Err(s.conflict(&list.span(), what, "for example held_mm = [-10.0, 4.0], mm from mid-face"));
-                }
-            }
-        }
-    };
-    Ok(BoreScene { held_mm, ..BoreScene::read(s, raw, f64::INFINITY)? })
 }
 
 /// The mesh's own names; those of flanks need a place for the tooth number.

@@ -1,6 +1,7 @@
 //! Checks raw values and makes a scene: ranges, defaults, combinations, features that this version does not have.
 
 mod accuracy_in_time;
+mod bore;
 mod continuation;
 mod derivatives;
 mod gear;

@@ -76,7 +76,24 @@ table! {
     /// `[pinion.bore]`
     BORE, RawBore => BoreScene Copy; defaults: "how the shaft holds the bore; models with a mesh, without `[accuracy]`"; {
         held_mm: numbers() => {Option<[f64; 2]>}, "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it. Held are faces of the mesh that lie between the two as a whole; the mesher has rows of faces every face width over `elements_face`";
-        coupling: word(Coupling), "how the bore follows the shaft. kinematic: every node moves with the shaft's cross-section, a rigid bore; distributing: the bore deforms, its area-weighted mean displacement and turn are the shaft's, and the whole gear is condensed in one factor (not of the model full)";
+        coupling: word(Coupling), "how the bore follows the shaft. kinematic: every node moves with the shaft's cross-section, a rigid bore; distributing: the bore deforms, its area-weighted mean displacement and turn are the shaft's, and the whole gear is condensed in one factor (not of the model full); elastic: it stands on springs, all around or at `bolts`, on the shaft's cross-section";
+        radial_n_per_mm3: number(0.0, 1e9, 0.0), "stiffness of an elastic bore per area, N/mm per mm^2, along the radius";
+        tangential_n_per_mm3: number(0.0, 1e9, 0.0), "along the circumference, above 0 here or at `bolts`; where the bore passes no torque, as on a bearing, any small one will do";
+        axial_n_per_mm3: number(0.0, 1e9, 0.0), "along the axis, likewise";
+        bolts: table(BOLTS: RawBolts) => {Option<BoltsScene>};
+    }
+}
+
+table! {
+    /// `[pinion.bore.bolts]`
+    BOLTS, RawBolts => BoltsScene Copy: "bolts, keys or teeth of a spline: springs of an elastic bore at places of the gear, beside those all around or, from three on, in their place. Each tooth is then held otherwise, and the whole gear is condensed in one factor", needed ["count", "width_mm"]; {
+        count: bare_whole(1, 1000) => {u32}, "their number, evenly around";
+        first_angle_deg: number(-360.0, 360.0, 0.0), "angle of the middle of the first one, degrees, counter-clockwise seen from +z, from the middle of tooth 0 at mid-face";
+        width_mm: bare(1e-3, 1e4) => {f64}, "arc of the bore that each holds, mm";
+        over_mm: numbers() => {Option<[f64; 2]>}, "heights between which they hold, from and to, mm from mid-face along +z; default: all that is held";
+        radial_n_per_mm: number(0.0, 1e12, 0.0), "stiffness of each along the radius, N/mm, spread evenly over what it holds";
+        tangential_n_per_mm: number(0.0, 1e12, 0.0), "along the circumference, N/mm";
+        axial_n_per_mm: number(0.0, 1e12, 0.0), "along the axis, N/mm";
     }
 }
 
@@ -87,6 +104,8 @@ choices! {
         Kinematic = "kinematic",
         /// By its area-weighted mean displacement and mean turn.
         Distributing = "distributing",
+        /// On springs all around.
+        Elastic = "elastic",
     }
 }
 

@@ -30,7 +30,7 @@ pub(crate) use accuracy::{Asked, GEARBOX_ACCURACY, RawGearboxAccuracy};
 pub use flank::{FlankScene, ModificationScene};
 pub(crate) use flank::{RawFlank, RawModification};
 pub(crate) use gear::*;
-pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, ShaperScene};
+pub use gear::{BoltsScene, BoreScene, Coupling, GearScene, Material, MesherScene, ShaperScene};
 pub(crate) use json::DOCUMENTS;
 pub use json::json_schema;
 pub(crate) use models::*;

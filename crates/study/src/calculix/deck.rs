@@ -63,7 +63,7 @@ impl Deck<'_> {
     /// Text of the deck; node and element numbers count through both gears from 1.
     ///
     /// # Errors
-    /// [`CalculixError::NoSuchElement`], [`CalculixError::MissingFlank`], [`CalculixError::MeanBore`],
+    /// [`CalculixError::NoSuchElement`], [`CalculixError::MissingFlank`], [`CalculixError::SoftBore`],
     /// [`CalculixError::OutOfRange`].
     pub fn text(&self) -> Result<String, CalculixError> {
         for (name, value) in
@@ -73,9 +73,9 @@ impl Deck<'_> {
                 return Err(CalculixError::OutOfRange { name, value, expected: "above 0" });
             }
         }
-        let by_means = |i: &usize| self.bodies[*i].gear.bore_coupling() != BoreCoupling::Kinematic;
-        if let Some(i) = [0, 1].into_iter().find(by_means) {
-            return Err(CalculixError::MeanBore { gear: NAMES[i] });
+        let coupling = |i: usize| self.bodies[i].gear.bore_coupling();
+        if let Some(i) = [0, 1].into_iter().find(|i| coupling(*i) != BoreCoupling::Kinematic) {
+            return Err(CalculixError::SoftBore { gear: NAMES[i], coupling: coupling(i).name() });
         }
         let mut t = String::new();
         let (mut first_node, mut first_element) = (1, 1);

@@ -28,11 +28,13 @@ pub enum CalculixError {
         /// Number of the tooth.
         tooth: u32,
     },
-    /// The gear has a distributing coupling, but the deck supports only rigid bores.
-    #[error("the bore of the {gear} has the coupling `distributing`, and the deck has rigid bores")]
-    MeanBore {
+    /// The gear has another coupling, but the deck supports only rigid bores.
+    #[error("the bore of the {gear} has the coupling `{coupling}`, and the deck has rigid bores")]
+    SoftBore {
         /// Name of the gear, `pinion` or `wheel`.
         gear: &'static str,
+        /// Name of the coupling.
+        coupling: &'static str,
     },
     /// A value of the deck is out of range.
     #[error("{name} is {value}, expected {expected}")]
@@ -69,7 +71,7 @@ impl CalculixError {
             }
             Self::NoSuchElement { .. } => Some("use hex8, hex20, tet4, tet10, wedge6 or wedge15".into()),
             Self::MissingFlank { .. } => Some("mesh the whole gear, or more teeth".into()),
-            Self::MeanBore { .. } => Some("take the coupling `kinematic`".into()),
+            Self::SoftBore { .. } => Some("take the coupling `kinematic`".into()),
             Self::OutOfRange { .. } => None,
             Self::File { .. } => Some("is the disk full, or the folder write-protected?".into()),
             Self::NoResult { .. } => Some("run `ccx` on the deck by hand and look at what it prints".into()),
