@@ -133,7 +133,8 @@ pub fn draw(seed: u64, index: u64) -> RandomScene {
         }
     }
     // Last, so that all other scenes of a seed stay what they are.
-    if !anything && !foreign && !rings::draw_ring(&mut d, &asked) {
+    if !anything && !foreign {
+        rings::draw_ring(&mut d, &asked);
         rating::draw_rating(&mut d, &asked);
     }
     RandomScene { draft: d, model: asked.model, anything, foreign }

@@ -7,12 +7,12 @@ const RINGS: f64 = 0.08;
 /// Pairs that are drawn until one of them can be.
 const DRAWS: usize = 20;
 
-/// Puts a pinion and a ring in place of the pair; whether it did.
-pub fn draw_ring(d: &mut Draft, asked: &Asked) -> bool {
+/// Puts a pinion and a ring in place of some pairs, half of them with root stress.
+pub fn draw_ring(d: &mut Draft, asked: &Asked) {
     if asked.model != "reduced" || asked.in_time || !d.chance(RINGS) {
-        return false;
+        return;
     }
-    // What goes with the gears before, and what a ring does not have.
+    // What goes with the gears before.
     d.files.clear();
     for table in ["rating", "accuracy", "derivatives", "output"] {
         d.unset(table);
@@ -54,5 +54,7 @@ pub fn draw_ring(d: &mut Draft, asked: &Asked) -> bool {
             break;
         }
     }
-    true
+    if d.chance(0.5) {
+        d.set("output.root_stress", true);
+    }
 }

@@ -392,6 +392,35 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
     }
 }
 
+/// A stage rates its rings: teeth of planets are bent both ways, those of sun and ring one way; the ring is loaded by every planet once in a
+/// turn; planets that share the load evenly are rated alike.
+#[test]
+fn stages_rate_their_rings() {
+    let gear = "material = \"18CrNiMo7-6\"\nflank_roughness_rz_um = 4.8\nroot_roughness_rz_um = 20\n";
+    let rating = format!(
+        "[mesh.scene.rating]\nlife_h = 20000\napplication_factor = 1.25\ntolerance_class = 6\nlubricant = \"mineral VG 220\"\n\
+         [mesh.scene.rating.pinion]\n{gear}[mesh.scene.rating.wheel]\n{gear}[mesh.scene.contact]\n"
+    );
+    let stage = crate::planets::STAGE;
+    let text = stage.text().replace("[mesh.scene.contact]\n", &rating) + "[rating]\nspeed_rpm = 1000.0\n";
+    let file = Gearbox::parse(&text, "stage.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver)).and_then(Ending::finished);
+    let found = found.unwrap_or_else(|e| panic!("{e}"));
+    let rated: Vec<_> = found.meshes.iter().map(|mesh| mesh.rating.clone().unwrap().standard).collect();
+    let (suns, rings) = rated.split_at(stage.count);
+    for (sun, ring) in suns.iter().zip(rings) {
+        let [one, other] = [sun, ring].map(|r| r.gears().map(|g| g.bending.mean_stress_factor));
+        assert_eq!((one[0], other[1]), (1.0, 1.0));
+        assert!(one[1] < 0.75 && other[0] < 0.75, "{one:?}, {other:?}");
+        let cycles = ring.wheel.load_cycles / ring.pinion.load_cycles;
+        assert!((cycles / (3.0 * 31.0 / 82.0) - 1.0).abs() < 1e-12, "{cycles}");
+        // The hollow flanks of the ring press less than those of the sun.
+        assert!(ring.nominal_contact_stress_mpa < 0.6 * sun.nominal_contact_stress_mpa);
+        let alike = ring.wheel.pitting_safety / rings[0].wheel.pitting_safety;
+        assert!((alike - 1.0).abs() < 0.02, "{alike}");
+    }
+}
+
 /// Every number of one object beside that of another.
 fn compare(name: &str, own: &Value, wanted: &Value, worst: &mut (f64, String)) {
     // Teeth and angles of a place are the pair's own count.

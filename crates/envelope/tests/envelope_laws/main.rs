@@ -55,5 +55,5 @@ fn modes_are_numbered_and_have_their_scenes() {
         assert!(scene.name.starts_with(&format!("F{} ", mode.number)), "{}: named {}", mode.label(), scene.name);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), mode.scene, "{path}");
     }
-    assert_eq!(MODES.len(), 38);
+    assert_eq!(MODES.len(), 39);
 }
