@@ -13,6 +13,9 @@ answer::remarks! {
     rim_held(gear, bore_mm, rim_over_tooth_height, solid_mm, softer_percent)
         "the {gear}'s bore of {bore_mm:.2} mm is held rigidly and stiffens the teeth, with a rim of {rim_over_tooth_height:.2} tooth heights between: solid down to {solid_mm:.2} mm, the mean transmission error would be {softer_percent:.0} % larger (coarse solid gears), and a rim on a web is softer than that",
         "mesh the body down to where it is held";
+    bore_gives(gear, given_um, share_percent)
+        "the {gear} turns and moves on the springs of its bore by {given_um:.2} um along the line of action, {share_percent:.0} % of the mean transmission error",
+        "see that [{gear}.bore] states what holds the gear: a bearing beside it gives once more, and one that passes no torque lets the gear of a pair turn";
     locking_elements(gear, element, poisson)
         "the {gear}'s mesh has {element} elements, which lock at a Poisson's ratio of {poisson}: the body is too stiff, linear ones by a multiple",
         "mesh it with hexahedra";

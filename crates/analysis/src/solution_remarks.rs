@@ -5,9 +5,10 @@ use fem::locks_from;
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions, StaticPosition};
 use mesh::{BoreCoupling, ElementKind, Extent};
+use nalgebra::{Vector3, Vector6};
 use reduction::{ElasticGear, GearReducer};
 
-use crate::{coarse::Coarse, gear_dofs::reduced, remark};
+use crate::{coarse::Coarse, gear_dofs::reduced, meshes::SceneMesh, remark};
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 
@@ -81,6 +82,33 @@ pub fn locking_remark(gear: &ElasticGear, name: &str) -> Option<Remark> {
         (None, Some(kind)) => Some(remark::stiff_elements(name, kind.name())),
         (None, None) => None,
     }
+}
+
+/// Gears that give on the springs of their bores: how far along the transverse line of action, as rigid bodies under the mean
+/// force.
+///
+/// ```text
+/// F w' S^-1 w      w: force of 1 across the line of centres, with its axial part, at the pitch point of mid-face
+/// ```
+pub(crate) fn bore_remarks(model: &StaticModel, meshes: &[SceneMesh; 2], positions: &[StaticPosition]) -> Vec<Remark> {
+    let (pair, options) = (model.pair(), model.options());
+    let mean = positions.iter().map(|p| p.transmission_error).sum::<f64>() / positions.len().max(1) as f64;
+    let force = options.torque / [&pair.pinion, &pair.wheel][options.driven()].base_radius().abs();
+    let (alpha, axial) = (pair.working_pressure_angle(), pair.base_helix_angle().tan());
+    let given = |i: usize| {
+        // A bore that does not fit its springs was refused before.
+        let springs = meshes[i].gear.rigid_springs().ok()??;
+        let radius = pair.working_radii()[i].abs();
+        let unit = Vector3::new(alpha.sin(), alpha.cos(), axial);
+        let moment = Vector3::new(radius, 0.0, 0.0).cross(&unit);
+        let wrench = Vector6::new(unit.x, unit.y, unit.z, moment.x, moment.y, moment.z);
+        Some(force * wrench.dot(&springs.cholesky()?.solve(&wrench)))
+    };
+    let told = |i: usize| {
+        let given = given(i).filter(|given| *given > HELD * mean)?;
+        Some(remark::bore_gives(NAMES[i], 1e3 * given, 100.0 * given / mean))
+    };
+    (0..2).filter_map(told).collect()
 }
 
 /// Sum of the normal forces over what the torque asks for from which on flanks of both sides press at once. Levers of tips

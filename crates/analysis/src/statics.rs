@@ -25,7 +25,7 @@ use crate::{
     resolution::resolution,
     run_phase,
     shared_models::SharedModels,
-    solution_remarks::{body_remarks, deflection_remarks, jammed_pair},
+    solution_remarks::{body_remarks, bore_remarks, deflection_remarks, jammed_pair},
     static_cycle::{CycleInputs, SolvedStaticCycle},
 };
 
@@ -173,6 +173,7 @@ impl<'a> CycleAnalysis<'a> {
             remarks.extend(iso_root::remark(&LoadedPair::of(scene, &pair)));
         }
         remarks.extend(body_remarks(&model));
+        remarks.extend(bore_remarks(&model, &meshes, &history.positions));
         remarks.extend(deflection_remarks(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
         remarks.extend(jammed_pair(&history.positions, &pair, &options));
         remarks.extend(pair_rating::remarks(scene, &history));

@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::{Matrix3x6, Matrix6, Rotation3, Vector3};
+
 use crate::{BoreCoupling, Face, MeshError, MeshedGear, SurfaceGroup};
 
 impl MeshedGear {
@@ -48,6 +50,35 @@ impl MeshedGear {
             BoreCoupling::Kinematic => self.bore_nodes(),
             BoreCoupling::Distributing | BoreCoupling::Elastic(_) => &[],
         }
+    }
+
+    /// Stiffness of the springs under the bore of the whole gear as a rigid body on its axis at mid-face: along x, y, z (N/mm) and
+    /// about them (N mm/rad); of an open sector that of its own springs. `None` where the bore stands on none.
+    ///
+    /// ```text
+    /// S = sum of [1 -X]' D [1 -X]      X r = x cross r
+    /// ```
+    /// # Errors
+    /// As of [`Foundation::springs`](crate::Foundation::springs).
+    pub fn rigid_springs(&self) -> Result<Option<Matrix6<f64>>, MeshError> {
+        let Some(foundation) = self.coupling.foundation() else { return Ok(None) };
+        let mut own = Matrix6::zeros();
+        for spring in foundation.springs(&self.mesh, &self.bore.faces)? {
+            let nodes = spring.face.nodes().iter().zip(spring.shape);
+            let at: Vector3<f64> = nodes.map(|(&n, share)| share * Vector3::from(self.mesh.nodes[n as usize])).sum();
+            let mut moves = Matrix3x6::zeros();
+            moves.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+            moves.fixed_view_mut::<3, 3>(0, 3).copy_from(&-at.cross_matrix());
+            own += moves.transpose() * spring.stiffness * moves;
+        }
+        let copies = if self.is_periodic_sector() { self.teeth } else { 1 };
+        let copy = |k: u32| {
+            let mut turn = Matrix6::zeros();
+            let about = *Rotation3::from_axis_angle(&Vector3::z_axis(), self.pitches_on(k)).matrix();
+            [0, 3].into_iter().for_each(|i| turn.fixed_view_mut::<3, 3>(i, i).copy_from(&about));
+            turn * own * turn.transpose()
+        };
+        Ok(Some((0..copies).map(copy).sum()))
     }
 
     /// Integrals of the shape functions over the held faces, mm^2, by node, ascending. Area-weighted means are computed

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod basins;
+mod bores;
 mod continuation;
 mod exchanged;
 mod face_load;

@@ -144,12 +144,17 @@ fn a_gear_on_soft_springs_is_a_rigid_body() {
     let exact = gear(30, 0.0);
     let [radial, tangential, axial] = [3e-3, 2e-3, 1e-3];
     let mesh = on_springs(meshed(&exact, 2, 2, Extent::Periodic), [radial, tangential, axial]);
+    let of_mesh = mesh.rigid_springs().unwrap().unwrap();
     let reducer = GearReducer::new(mesh, Material::STEEL, options(&[Side::Left], 1, 0)).unwrap();
     let reduced = reducer.window(0).unwrap().reduced;
     let (r, b) = (0.5 * exact.data().bore_diameter, exact.data().face_width);
     let (area, across) = (2.0 * PI * r * b, 0.5 * (radial + tangential));
     let tilt = area * (across * b * b / 12.0 + 0.5 * axial * r * r);
     let stiffness = [area * across, area * across, area * axial, tilt, tilt, area * tangential * r * r];
+    for (k, wanted) in stiffness.into_iter().enumerate() {
+        let off = of_mesh[(k, k)] / wanted - 1.0;
+        assert!(off.abs() < 1e-4, "axis {k}: {} beside {wanted}", of_mesh[(k, k)]);
+    }
     let nodes = &reducer.gear().mesh().nodes;
     let motion = |i: usize, k: usize| {
         let x = Vector3::from(nodes[reduced.nodes[i / 3] as usize]);
