@@ -54,6 +54,12 @@ const FLANK: &[Row] = &[
     ("evaluation_start_diameter_mm", Flanks, "~profile_slope_um=-9", "93"),
 ];
 
+/// A bore on springs all around.
+const ON_SPRINGS: &str =
+    "~bore.coupling=elastic; ~bore.radial_n_per_mm3=1e3; ~bore.tangential_n_per_mm3=1e3; ~bore.axial_n_per_mm3=1e3";
+/// A bore on bolts.
+const ON_BOLTS: &str = "~bore.coupling=elastic; ~bore.bolts.count=6; ~bore.bolts.width_mm=8; ~bore.bolts.radial_n_per_mm=2e5; ~bore.bolts.tangential_n_per_mm=2e5; ~bore.bolts.axial_n_per_mm=2e5";
+
 /// Keys of a material.
 const MATERIAL: &[Row] =
     &[("young_mpa", Iso, "", "1.0e5"), ("poisson", Reduced, "", "0.25"), ("density_kg_m3", Motion, "", "2700")];
@@ -92,6 +98,16 @@ const GEAR: &[Row] = &[
     ("mesher.sector_teeth", Reduced, "", "5"),
     ("bore.held_mm", Reduced, "", "[-10, 0]"),
     ("bore.coupling", Reduced, "", "distributing"),
+    ("bore.radial_n_per_mm3", Reduced, ON_SPRINGS, "5e3"),
+    ("bore.tangential_n_per_mm3", Reduced, ON_SPRINGS, "5e3"),
+    ("bore.axial_n_per_mm3", Reduced, ON_SPRINGS, "5e3"),
+    ("bore.bolts.count", Reduced, ON_BOLTS, "8"),
+    ("bore.bolts.first_angle_deg", Reduced, ON_BOLTS, "20"),
+    ("bore.bolts.width_mm", Reduced, ON_BOLTS, "12"),
+    ("bore.bolts.over_mm", Reduced, ON_BOLTS, "[-6, 6]"),
+    ("bore.bolts.radial_n_per_mm", Reduced, ON_BOLTS, "5e5"),
+    ("bore.bolts.tangential_n_per_mm", Reduced, ON_BOLTS, "5e5"),
+    ("bore.bolts.axial_n_per_mm", Reduced, ON_BOLTS, "5e5"),
     ("groups.bore", Files, "", "Hub"),
     ("groups.flank_left", Files, "", "Left_{k}"),
     ("groups.flank_right", Files, "", "Right_{k}"),
