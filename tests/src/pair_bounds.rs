@@ -1,6 +1,6 @@
 //! Bounds of the committed laws for measured pairs, beside their true errors: no run is needed.
 
-use analysis::accuracy::{CalibratedMesh, Calibration, Quantity, together};
+use analysis::accuracy::{CalibratedMesh, Calibration, Quantity, QuantityLaws, together};
 
 use crate::measured_pair::{LEAST_ERROR, MeasuredPair, RUNGS};
 
@@ -34,11 +34,25 @@ impl PairBound {
 pub fn pair_bounds(pair: &MeasuredPair, q: Quantity) -> Vec<PairBound> {
     let meshes = RUNGS.into_iter().map(CalibratedMesh::Rung).chain([CalibratedMesh::Default]);
     let all = meshes.flat_map(|mesh| OF_POSITIONS.map(|positions| (mesh, positions)));
-    all.filter_map(|(mesh, positions)| pair_bound(pair, q, mesh, positions)).collect()
+    let Some(laws) = Calibration::committed().of(q) else { return Vec::new() };
+    all.filter_map(|(mesh, positions)| pair_bound((pair, q), laws, mesh, positions)).collect()
 }
 
-fn pair_bound(pair: &MeasuredPair, q: Quantity, mesh: CalibratedMesh, positions: u32) -> Option<PairBound> {
-    let laws = Calibration::committed().of(q)?;
+/// How many times the bounds of these laws for external pairs the errors of a pair are, on every mesh with every number of
+/// positions.
+pub fn ratios(pair: &MeasuredPair, q: Quantity, laws: &QuantityLaws) -> Vec<f64> {
+    let meshes = RUNGS.into_iter().map(CalibratedMesh::Rung).chain([CalibratedMesh::Default]);
+    let all = meshes.flat_map(|mesh| OF_POSITIONS.map(|positions| (mesh, positions)));
+    let bounds = all.filter_map(|(mesh, positions)| pair_bound((pair, q), laws, mesh, positions));
+    bounds.map(|bound| (bound.error - bound.known).abs() / bound.within).collect()
+}
+
+fn pair_bound(
+    (pair, q): (&MeasuredPair, Quantity),
+    laws: &QuantityLaws,
+    mesh: CalibratedMesh,
+    positions: u32,
+) -> Option<PairBound> {
     let (sample, features) = (pair.sample(mesh)?, pair.features(mesh)?);
     let (own, scale) = (sample.get(q)?, sample.scale(q)?);
     let number = pair.number(q, own);
@@ -49,5 +63,6 @@ fn pair_bound(pair: &MeasuredPair, q: Quantity, mesh: CalibratedMesh, positions:
     let error = pair.mesh_error(mesh, q)? + pair.slices_error(q)? + pair.positions_error(positions, q)?;
     let all = [of_mesh, of_slices, of_positions];
     let known = all.iter().map(|[known, _]| known).sum();
-    Some(PairBound { error, known, within: together(&all.map(|[_, within]| within)), scale })
+    let own = if pair.scene.wheel.is_internal() { laws.internal } else { 1.0 };
+    Some(PairBound { error, known, within: own * together(&all.map(|[_, within]| within)), scale })
 }

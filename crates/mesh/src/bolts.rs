@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-use crate::{Face, FaceKind, Mesh, MeshError, SpringPoint, foundation::along_cylinder, gauss_legendre};
+use crate::{Face, FaceKind, Mesh, MeshError, SpringPoint, gauss_legendre, spring_point::along_cylinder};
 
 /// Equal springs evenly around a bore, each spread over a rectangle of it.
 ///

@@ -117,11 +117,44 @@ pub fn draw_faces_and_bores(d: &mut Draft, sizes: &Sizes) {
         if d.chance(0.02) {
             let coupling = d.pick(&["kinematic", "distributing"]);
             d.set(&format!("{gear}.bore.coupling"), coupling);
+        } else if d.chance(0.02) {
+            draw_springs(d, gear, half);
         }
     }
     if d.chance(0.03) {
         let offset = half * d.mostly([-0.2, 0.2], [-2.0, 2.0]);
         d.set("pair.mid_face_offset_mm", offset);
+    }
+}
+
+/// A bore on springs all around, at bolts, or both.
+fn draw_springs(d: &mut Draft, gear: &str, half: f64) {
+    d.set(&format!("{gear}.bore.coupling"), "elastic");
+    let bolts = d.chance(0.5);
+    if !bolts || d.chance(0.5) {
+        for key in ["radial", "tangential", "axial"] {
+            let stiffness = 10f64.powf(d.mostly([2.0, 5.0], [-3.0, 8.0]));
+            d.set(&format!("{gear}.bore.{key}_n_per_mm3"), stiffness);
+        }
+    }
+    if bolts {
+        let table = format!("{gear}.bore.bolts");
+        let count = d.whole(3, 24);
+        d.set(&format!("{table}.count"), i64::from(count));
+        let width = half * d.between(0.02, 0.5);
+        d.set(&format!("{table}.width_mm"), width);
+        for key in ["radial", "tangential", "axial"] {
+            let stiffness = 10f64.powf(d.mostly([4.0, 7.0], [0.0, 10.0]));
+            d.set(&format!("{table}.{key}_n_per_mm"), stiffness);
+        }
+        if d.chance(0.3) {
+            let angle = d.between(-360.0, 360.0);
+            d.set(&format!("{table}.first_angle_deg"), angle);
+        }
+        if d.chance(0.3) {
+            let over = vec![-half * d.between(0.1, 1.0), half * d.between(0.1, 1.0)];
+            d.set(&format!("{table}.over_mm"), over);
+        }
     }
 }
 

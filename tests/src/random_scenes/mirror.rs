@@ -50,6 +50,10 @@ pub fn tell(index: u64, scene: &RandomScene) -> Option<Told> {
     if !is_at_rest(scene) || scene.anything || one_handed || d.get("accuracy").is_some() {
         return None;
     }
+    // Bolts stand at places of the gear, which another tooth has in the mirror.
+    if ["pinion", "wheel"].iter().any(|gear| d.get(&format!("{gear}.bore.bolts.count")).is_some()) {
+        return None;
+    }
     let mirror = if index.is_multiple_of(2) { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
     let mut other = scene.draft.copy();
     for key in ["pinion.helix_angle_deg", "wheel.helix_angle_deg"] {

@@ -58,7 +58,7 @@ struct PairArgs {
     name: Option<String>,
     /// Numbers of teeth of pinion and wheel, the wheel's negative if internal; three numbers, sun, planet and ring, are a
     /// planetary stage, of which the other words say sun and planet [default: 30,30]
-    #[arg(long, value_name = "Z1,Z2[,Z3]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     teeth: Vec<i32>,
     /// Normal module [default: 3]
     #[arg(long, value_name = "MM")]

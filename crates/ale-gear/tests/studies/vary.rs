@@ -198,7 +198,7 @@ fn words_of_a_plan_are_checked_first() {
         (whole("a.toml", torque, mean, "").replace("scene = \"a.toml\"\n", ""), "a plan without `scene`"),
         (keys(""), "nothing is varied"),
         (whole("a.toml", torque, "", ""), "a plan that asks for nothing"),
-        (whole("b.toml", torque, mean, ""), "b.toml cannot be read"),
+        (whole("b.toml", torque, mean, ""), "\"b.toml\" cannot be read"),
         (whole("a.toml", torque, mean, "sampels = 3\n"), "did you mean `samples`"),
         (whole("a.toml", torque, mean, "design = \"sobo\"\n"), "did you mean \"sobol\""),
         (keys("\"operation.torque_nm=1:2\""), "say how many, as `=1:2:9`, or draw them, as `~1:2`"),

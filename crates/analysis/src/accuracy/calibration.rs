@@ -78,6 +78,8 @@ pub struct QuantityLaws {
     pub slices: PairLaw,
     /// Laws of the number of positions, from half as many.
     pub positions: Vec<PositionsLaw>,
+    /// Factor on the bounds of internal pairs, 1 or more: the laws are those of external pairs.
+    pub internal: f64,
 }
 
 /// Calibration of a mesh.

@@ -96,6 +96,8 @@ struct SeenCycle {
     companion: Option<Companion>,
     /// The scene is unlike those of the calibration.
     beyond: bool,
+    /// The wheel is a ring.
+    internal: bool,
     /// Relative errors of the interpolated bulk compliance and of the contact iterations.
     interpolation: f64,
     iteration: f64,
@@ -124,6 +126,7 @@ impl SeenCycle {
             halved: (positions >= LEAST_HALVED && positions.is_multiple_of(2)).then(|| sample(2)).transpose()?,
             companion,
             beyond,
+            internal: result.pair.is_internal(),
             interpolation: headline.bulk_compliance_error,
             iteration: headline.worst_torque_residual.max(headline.worst_complementarity_residual),
         })
@@ -158,6 +161,9 @@ impl SeenCycle {
             }
         }
         in_squares([&mut mesh[1], &mut slices[1], &mut positions[1]]);
+        if self.internal {
+            [&mut mesh, &mut slices, &mut positions].into_iter().for_each(|[_, within]| *within *= laws.internal);
+        }
         let terms = [
             (Cause::Mesh, mesh),
             (Cause::Slices, slices),

@@ -19,10 +19,12 @@ struct Part {
 }
 
 /// What is measured, in this order: some of everything before all of anything.
-const PARTS: [Part; 5] = [
+const PARTS: [Part; 7] = [
     Part { name: "spur", kind: "rest", more: Some("spur"), seed: 4, pairs: 320 },
     Part { name: "rest", kind: "rest", more: None, seed: 101, pairs: 300 },
     Part { name: "rest_held_out", kind: "rest", more: None, seed: 102, pairs: 200 },
+    Part { name: "rings", kind: "rest", more: Some("6"), seed: 1001, pairs: 100 },
+    Part { name: "rings_held_out", kind: "rest", more: Some("6"), seed: 1002, pairs: 100 },
     Part { name: "motion", kind: "motion", more: None, seed: 103, pairs: 200 },
     Part { name: "curves", kind: "rest", more: Some("curves"), seed: 105, pairs: 1000 },
 ];
@@ -50,7 +52,7 @@ pub(super) fn run(words: &[String]) -> Result<(), Failure> {
     let there = |names: &[&str]| -> Vec<String> {
         names.iter().map(|name| file(name)).filter(|file| Path::new(file).exists()).collect()
     };
-    let (rest, motion) = (there(&["rest", "curves", "spur"]), there(&["motion"]));
+    let (rest, motion) = (there(&["rest", "curves", "spur", "rings"]), there(&["motion"]));
     let measured = verification::measured_pair::MeasuredPair::all(&verification::pairs_done::lines(&rest)?);
     let whole = measured.iter().filter(|pair| pair.has_meshes()).count();
     if whole >= LEAST_PAIRS {
@@ -62,5 +64,5 @@ pub(super) fn run(words: &[String]) -> Result<(), Failure> {
         calibrate::run(&[vec!["motion".into(), format!("{folder}/motion.json")], motion.clone()].concat())?;
         page::run(&[vec![format!("{folder}/which_model.md")], motion].concat())?;
     }
-    check::run(&[vec!["laws".into()], there(&["rest_held_out"])].concat())
+    check::run(&[vec!["laws".into()], there(&["rest_held_out", "rings_held_out"])].concat())
 }

@@ -9,6 +9,7 @@ use serde_json::Value;
 use verification::{
     held_out::{held_out, spur_alone},
     measured_pair::{LEAST_ERROR, MeasuredPair, RUNGS},
+    pair_bounds::ratios,
     pair_law_fit::{Fitted, Known, PairCase, conformal, fit},
 };
 
@@ -31,13 +32,22 @@ pub(super) fn table(lines: &[Value]) -> Result<Calibration, Failure> {
     all.iter().for_each(|pair| made_of.entry(pair.seed).or_default().push(pair.index));
     // Some spur pairs say alone how much wider the bounds of their positions are.
     let (spur, all): (Vec<_>, Vec<_>) = all.into_iter().partition(|pair| spur_alone(pair.seed));
+    // So do internal pairs of all their bounds.
+    let (rings, all): (Vec<_>, Vec<_>) = all.into_iter().partition(|pair| pair.scene.wheel.is_internal());
     let of_curves: Vec<&MeasuredPair> = all.iter().filter(|pair| pair.has_curves()).collect();
     let pairs: Vec<&MeasuredPair> = of_curves.iter().copied().filter(|pair| pair.has_meshes()).collect();
     println!("{} pairs on meshes, curves of {} pairs and of {} spur pairs", pairs.len(), of_curves.len(), spur.len());
     let mut quantities = Vec::new();
     for alike in ALIKE {
         let laws = laws_of_alike(&pairs, &of_curves, &spur, alike);
-        quantities.extend(laws.ok_or_else(|| format!("too few pairs with {}", alike.0[0].key()))?);
+        let laws = laws.ok_or_else(|| format!("too few pairs with {}", alike.0[0].key()))?;
+        let with_rings = laws.into_iter().zip(alike.0).map(|(laws, q)| {
+            let ratios = rings.iter().flat_map(|pair| ratios(pair, *q, &laws)).collect();
+            let internal = conformal(ratios, COVERAGE).max(1.0);
+            println!("{:24} {internal:.2} times the bound for {} internal pairs", q.key(), rings.len());
+            QuantityLaws { internal, ..laws }
+        });
+        quantities.extend(with_rings);
     }
     Ok(Calibration { pairs: pairs.len(), made_of, coverage: COVERAGE, quantities })
 }
@@ -200,6 +210,7 @@ fn laws(
         );
     }
     Some(QuantityLaws {
+        internal: 1.0,
         quantity: q.key().to_owned(),
         mesh: mesh.iter().map(|(mesh, c)| MeshLaw { mesh: *mesh, law: scaled(c) }).collect(),
         slices: scaled(&slices),
