@@ -66,19 +66,26 @@ pub fn mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Oper
 /// a_m = 1 on gear 1, z_2/z_1 on gear 2 (below zero of a ring);   r_m: pitch radius of gear 1
 /// ```
 ///
+/// A load on a carrier is held by the input and the shaft that is fixed in space, by their meshes together.
+///
 /// `None` where no forces of the teeth are in equilibrium: a load on a shaft that no mesh reaches.
 pub fn even_mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Operation) -> Option<Vec<[f64; 2]>> {
     let shaft = |disc: usize| Some(structure.discs.get(disc)?.shaft);
     let input = shaft(operation.input)?;
     let turns = |own: usize| own != input && structure.fixed != Some(own) && !structure.standing.contains(&own);
-    let mut a = DMatrix::zeros(structure.shafts.len(), meshes.len());
-    let mut b = DVector::zeros(structure.shafts.len());
+    let holds = |own: usize| structure.fixed.is_some_and(|fixed| own == fixed || own == input);
+    // The last row is that of the carrier.
+    let carrier = structure.shafts.len();
+    let mut a = DMatrix::zeros(carrier + 1, meshes.len());
+    let mut b = DVector::zeros(carrier + 1);
     let arms: Vec<[f64; 2]> = meshes.iter().map(|mesh| arms(&mesh.pair.pinion, &mesh.pair.wheel)).collect();
     for (i, (mesh, arms)) in meshes.iter().zip(&arms).enumerate() {
         for (disc, arm) in mesh.discs.into_iter().zip(arms) {
             let own = shaft(disc)?;
             if turns(own) {
                 a[(own, i)] += arm;
+            } else if holds(own) {
+                a[(carrier, i)] += arm;
             }
         }
     }
@@ -86,7 +93,13 @@ pub fn even_mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: 
         let own = shaft(load.disc)?;
         if turns(own) {
             b[own] -= load.torque;
+        } else if structure.fixed.is_some() && structure.standing.contains(&own) {
+            b[carrier] += load.torque;
         }
+    }
+    if !operation.torques.iter().any(|load| shaft(load.disc).is_some_and(|own| structure.standing.contains(&own))) {
+        // Where the carrier drives, its torque follows from the others.
+        a.row_mut(carrier).fill(0.0);
     }
     let (size, scale): (f64, f64) = (b.norm(), a.amax());
     let forces = a.clone().svd(true, true).solve(&b, SINGULAR * scale).ok()?;

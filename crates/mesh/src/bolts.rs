@@ -45,6 +45,11 @@ impl Bolts {
         let [from, to] = self.heights.unwrap_or_else(|| {
             nodes().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [_, _, z]| [low.min(z), high.max(z)])
         });
+        let widest = nodes().map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
+        let (taken, around) = (f64::from(self.count) * self.width, TAU * widest);
+        if taken > around * (1.0 + EDGE) {
+            return Err(MeshError::BoltsOverlap { count: self.count, taken_mm: taken, around_mm: around });
+        }
         let heights = stretched([from, to], side);
         let arcs = stretched([-0.5 * self.width, 0.5 * self.width], side);
         let mut all = Vec::with_capacity(self.count as usize * arcs.len() * heights.len());

@@ -144,6 +144,16 @@ pub enum MeshError {
         /// Fewest that hold.
         fewest: u32,
     },
+    /// Bolts that take more than the bore has.
+    #[error("{count} bolts hold {taken_mm:.2} mm of a bore that is {around_mm:.2} mm around")]
+    BoltsOverlap {
+        /// Number of bolts.
+        count: u32,
+        /// Arcs of all together, mm.
+        taken_mm: f64,
+        /// Circumference of the bore, mm.
+        around_mm: f64,
+    },
     /// A bolt that touches more than the bore.
     #[error("bolt {bolt} reaches beyond the held faces of the bore, at {angle_deg:.3} deg, z {z_mm:.4} mm")]
     BoltOffBore {
@@ -264,6 +274,7 @@ impl MeshError {
             Self::FewBolts { .. } => {
                 "give the bore `tangential_n_per_mm3` and `axial_n_per_mm3` too, or state more bolts"
             }
+            Self::BoltsOverlap { .. } => "make them narrower or fewer; `width_mm` is the arc of each",
             Self::BoltOffBore { .. } => "set `over_mm` of the bolts to a part of what is held, and mesh the whole bore",
             Self::BadFoundation { .. } => "leave the key out where nothing holds",
             Self::FreeBore { missing: "axial", .. } => {

@@ -10,7 +10,7 @@ use dialoguer::{Confirm, Input, Select};
 use files::{write_file, write_new_file};
 
 use scene::{
-    RexsGearbox, RexsPair, Starter,
+    RexsGearbox, RexsPair, SceneError, Starter,
     gearbox::{Gearbox, GearboxOfPair, StageHeld, StageStarter, gearbox_of_pair},
     read_gearbox, read_pair, read_rexs,
 };
@@ -207,16 +207,24 @@ impl InitArgs {
         }
         let mut words = self.pair.clone();
         words.teeth.truncate(2);
-        let starter = words.over(Starter { torque_nm: 1000.0, helix_deg: 0.0, ..Starter::default() })?;
+        let pair = Starter::default();
+        let size = words.module_mm.map_or(1.0, |module| module / pair.module_mm);
+        let (face_width_mm, torque_nm) = (pair.face_width_mm * size, 1000.0 * size.powi(3));
+        let starter = words.over(Starter { face_width_mm, torque_nm, helix_deg: 0.0, ..pair })?;
         let held = match self.pair.held {
             Some(HeldWord::Carrier) => StageHeld::Carrier,
             Some(HeldWord::Ring) | None => StageHeld::Ring,
         };
         let stage = StageStarter { pair: starter, ring_teeth, planets: self.pair.planets.unwrap_or(3), held };
-        let most = stage.most_planets()?;
-        if stage.planets == 0 || stage.planets > most {
+        let without_file = |e: SceneError| {
+            let own = CommandError::from(e);
+            CommandError { message: without_place(&own.message), excerpt: None, ..own }
+        };
+        let most = stage.most_planets().map_err(without_file)?;
+        if !(2..=most).contains(&stage.planets) {
             let what = format_args!("{} planets do not fit around this sun", stage.planets);
-            return Err(CommandError::input(what, Some(format!("1 to {most} have room"))));
+            let hint = if most < 2 { "take smaller planets".to_owned() } else { format!("2 to {most} have room") };
+            return Err(CommandError::input(what, Some(hint)));
         }
         let file = self.gearbox_file();
         let to_stdout = file.as_os_str() == "-";
@@ -225,11 +233,10 @@ impl InitArgs {
             absent(&file)?;
         }
         let even = -(stage.pair.teeth[0] + 2 * stage.pair.teeth[1]);
-        let text = stage.text(&shown).map_err(|e| match CommandError::from(e) {
+        let text = stage.text(&shown).map_err(|e| match without_file(e) {
             own if ring_teeth == even => own,
             own => CommandError {
-                message: format!("no ring of {} teeth: {}", -ring_teeth, without_place(&own.message)),
-                excerpt: None,
+                message: format!("no ring of {} teeth: {}", -ring_teeth, own.message),
                 hint: Some(format!("a ring of {even} teeth, as the sun and two planets, needs no profile shift")),
                 ..own
             },

@@ -29,3 +29,41 @@ fn a_planetary_stage_vibrates() {
     let campbell = scratch.read("o/campbell.csv");
     assert!(campbell.contains("shaft_4") && !campbell.contains("shaft_5"), "{campbell}");
 }
+
+/// Torques that no teeth can carry are refused before any work, whichever member of a stage is held.
+#[test]
+fn torques_beyond_all_teeth_are_refused() {
+    for file in ["planetary_stage", "planetary_stage_ring_fixed"] {
+        let stage = repository().join(format!("scenes/gearbox/{file}.toml"));
+        let set = "torque.0.torque_nm=1e7";
+        let run = Scratch::new().ale_gear(["run", stage.to_str().unwrap(), "--out", "o", "--set", set]);
+        assert_eq!(run.code, Some(2), "{file}: {}", run.stderr);
+        assert!(run.stderr.contains("would bend the teeth by"), "{file}: {}", run.stderr);
+    }
+}
+
+/// Three numbers of teeth make a stage that runs as it is, with the torques of its teeth.
+#[test]
+fn stages_begin_with_three_numbers_of_teeth() {
+    let scratch = Scratch::new();
+    for (held, torque) in [("ring", "205.88 N·m"), ("carrier", "259.26 N·m")] {
+        let file = format!("{held}.toml");
+        let written = scratch.ale_gear(["init", &file, "--teeth", "21,30,-81", "--held", held]);
+        assert_eq!(written.code, Some(0), "{}", written.stderr);
+        let set = "analysis.positions_per_cycle=1";
+        let run = scratch.ale_gear(["run", &file, "--out", held, "--no-view", "--set", set]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(run.stdout.contains(torque), "{}", run.stdout);
+    }
+    for (words, said) in [
+        (&["--teeth", "21,30,-81", "--planets", "1"][..], "hint: 2 to 4 have room"),
+        (&["--teeth", "21,30,-60"], "hint: a ring of -81 teeth"),
+        (&["--teeth", "21,30,81"], "hint: a ring has its teeth inside"),
+        (&["--planets", "3"], "hint: give the teeth of sun, planet and ring"),
+    ] {
+        let refused = scratch.command(&[&["init", "no.toml"][..], words].concat());
+        assert_eq!(refused.code, Some(2), "{words:?}: {}", refused.stderr);
+        assert!(refused.stderr.contains(said), "{words:?}: {}", refused.stderr);
+        assert!(!refused.stderr.contains("stage.toml"), "{words:?}: {}", refused.stderr);
+    }
+}

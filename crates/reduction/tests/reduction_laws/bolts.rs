@@ -202,8 +202,11 @@ fn bolts_that_hold_nothing_are_refused() {
     assert!(Foundation::new([0.0, 1.0, 1.0], Some(Bolts { count: 1, ..BOLTS })).is_ok());
     let error = Foundation::new([0.0; 3], Some(Bolts { stiffness: [1.0, 1.0, 0.0], ..BOLTS })).unwrap_err();
     assert!(matches!(error, MeshError::FreeBore { .. }), "{error}");
-    for (extent, heights) in [(Extent::Whole, Some([2.0, 9.0])), (Extent::Sector(5), None)] {
-        let mesh = bolted(meshed(&ring(), 2, extent), [0.0; 3], Bolts { heights, ..BOLTS });
+    // Sixty of a sixtieth of the bore have room, sixty-one have none.
+    let crowd = Bolts { count: 61, width: TAU * 80.0 / 60.0, ..BOLTS };
+    let high = Bolts { heights: Some([2.0, 9.0]), ..BOLTS };
+    for (extent, bolts) in [(Extent::Whole, high), (Extent::Whole, crowd), (Extent::Sector(5), BOLTS)] {
+        let mesh = bolted(meshed(&ring(), 2, extent), [0.0; 3], bolts);
         let error = GearReducer::new(mesh, Material::STEEL, options(&[Side::Left], 1, 0)).unwrap_err();
         assert!(matches!(&error, ReductionError::Bore { .. }) && error.hint().is_some(), "{error}");
     }

@@ -139,7 +139,7 @@ impl StageStarter {
         shaft("sun", "", [0.0, -3.5 * b], &[[4.0 * b, sun_bore, 0.0]]);
         shaft("planet", "", [distance, -0.7 * b], &[[1.4 * b, planet_bore, hub]]);
         shaft("pin", stands, [distance, -1.3 * b], &[[2.6 * b, pin, 0.0]]);
-        let cage = [1.4, 1.25].map(|times| whole_mm(2.0 * times * distance));
+        let cage = [0.7, 0.5].map(|times| whole_mm(2.0 * distance + times * planet));
         let neck = [3.0, 1.5].map(|times| whole_mm(times * sun_bore));
         let plates = [[1.8 * b, neck[0], neck[1]], [2.6 * b, cage[0], cage[1]]];
         shaft("carrier", stands, [0.0, -3.1 * b], &plates);
@@ -166,8 +166,8 @@ impl StageStarter {
                 "\n[[bearing]]\nname = \"{name}\"\n{on}position_mm = {at:?}\nstiffness_n_per_mm = [{k:?}, {k:?}, {axial:?}]\n{more}"
             );
         };
-        let tilt = format!("tilt_stiffness_nm_per_rad = [{0:?}, {0:?}]\n", 250.0 * b * b);
-        let turn = |per: f64| format!("turn_stiffness_nm_per_rad = {:?}\n", per * b * b);
+        let tilt = format!("tilt_stiffness_nm_per_rad = [{0:?}, {0:?}]\n", 12.5 * b.powi(3));
+        let turn = |per: f64| format!("turn_stiffness_nm_per_rad = {:?}\n", per * b.powi(3));
         let third = BEARING / 3.0;
         bearing("sun a", "shaft = \"sun\"\n", 0.25 * b, [BEARING, third], "");
         bearing("sun b", "shaft = \"sun\"\n", 2.0 * b, [BEARING, 0.0], "");
@@ -175,12 +175,12 @@ impl StageStarter {
         bearing("needles a", on_pin, 0.25 * b, [BEARING, third], "");
         bearing("needles b", on_pin, 1.15 * b, [BEARING, 0.0], "");
         let in_plate = "shaft = \"pin\"\nin_shaft = \"carrier\"\n";
-        bearing("plate a", in_plate, 0.2 * b, [PLATE, PLATE], &format!("{tilt}{}", turn(250.0)));
+        bearing("plate a", in_plate, 0.2 * b, [PLATE, PLATE], &format!("{tilt}{}", turn(12.5)));
         bearing("plate b", in_plate, 2.4 * b, [PLATE, 0.0], &tilt);
-        let of_carrier = if held_ring { String::new() } else { turn(25_000.0) };
+        let of_carrier = if held_ring { String::new() } else { turn(1250.0) };
         bearing("carrier a", "shaft = \"carrier\"\n", 0.3 * b, [CARRIER, CARRIER / 3.0], &of_carrier);
         bearing("carrier b", "shaft = \"carrier\"\n", 1.5 * b, [CARRIER, 0.0], "");
-        let of_ring = if held_ring { turn(25_000.0) } else { String::new() };
+        let of_ring = if held_ring { turn(1250.0) } else { String::new() };
         bearing("ring a", "shaft = \"ring\"\n", 3.25 * b, [CARRIER, CARRIER / 3.0], &of_ring);
         bearing("ring b", "shaft = \"ring\"\n", 5.5 * b, [CARRIER, 0.0], "");
         for (name, at) in [("sun", 3.5 * b), ("planet", 0.7 * b), ("ring", 0.5 * b)] {
