@@ -51,7 +51,7 @@ fn stages_begin_with_three_numbers_of_teeth() {
         let written = scratch.ale_gear(["init", &file, "--teeth", "21,30,-81", "--held", held]);
         assert_eq!(written.code, Some(0), "{}", written.stderr);
         let set = "analysis.positions_per_cycle=1";
-        let run = scratch.ale_gear(["run", &file, "--out", held, "--no-view", "--set", set]);
+        let run = scratch.ale_gear(["run", &file, "--out", held, "--set", set]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         assert!(run.stdout.contains(torque), "{}", run.stdout);
     }
