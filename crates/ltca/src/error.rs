@@ -127,7 +127,7 @@ impl StaticError {
                 Some("lower the torque, or try other `slices` (method nodal: `points_per_face_edge`)".into())
             },
             Self::Overloaded { .. } => Some(
-                "elasticity here is linear and holds for small deflections: is the torque in N m, the face width in mm, Young's modulus in MPa, a penalty in MPa per mm?".into(),
+                "elasticity here is linear and holds for small deflections: is the torque in N m, the face width in mm, Young's modulus in MPa, a penalty in MPa per mm? Do springs under a bore hold the gear?".into(),
             ),
             Self::PassedThrough { distance_mm, .. } if *distance_mm < 0.0 => Some(format!("{SMALLER_STEPS}; where the torque may turn round, `flanks = \"both\"` lets the coast flanks hold")),
             Self::PassedThrough { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m?")),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use contact::Method;
 use fem::{ElementOptions, Material};
-use geometry::{Gear, GearData, GearModifications, GearPair};
+use geometry::{Gear, GearData, GearModifications, GearPair, Shaper};
 use ltca::{StaticModel, StaticOptions};
 use mesh::{Extent, GroupNames, Mesh, MeshedGear, StructuredOptions};
 use reduction::{ElasticGear, FullGear, GearReducer, ReductionOptions};
@@ -153,6 +153,34 @@ pub fn planet_in_ring(beta_deg: f64) -> [GearData; 2] {
         ..pinion.clone()
     };
     [pinion, ring.with_usual_shaper(0.0)]
+}
+
+/// Planet and ring of the second stage of NREL's 5 MW reference gearbox, a seventh of their size, with the torque on the ring
+/// at 250 N/mm of 12 mm face; teeth thinned by `allowance` (mm), quadratic meshes with `counts` as in [`generated`].
+pub fn nrel_planet_in_ring(allowance: f64, counts: [u32; 5], extent: Extent) -> Case {
+    let data = GearData {
+        normal_module: 3.0,
+        helix_angle: 0.0,
+        face_width: 12.0,
+        thickness_allowance: allowance,
+        ..GearData::default()
+    };
+    let planet = GearData {
+        teeth: 36,
+        profile_shift: 0.5039,
+        bore_diameter: 60.0,
+        tip_diameter: Some(36.0 * 3.0 + 2.0 * (3.0 * 1.5039 - 0.25)),
+        ..data.clone()
+    };
+    let ring = GearData {
+        teeth: 93,
+        profile_shift: 0.1171,
+        bore_diameter: -310.0,
+        root_radius_coefficient: 0.3,
+        shaper: Some(Shaper { teeth: 30, profile_shift: 0.0 }),
+        ..data
+    };
+    quadratic([planet, ring], Some(-584.0 / 7.0), 250.0 * 12.0 * 131.1, counts, extent)
 }
 
 /// The default pair at another helix angle in degrees on whole gears of the built-in mesher, hex8; `counts`: elements

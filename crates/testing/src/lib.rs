@@ -24,8 +24,8 @@ mod suite;
 pub mod waves;
 
 pub use case::{
-    Case, default_data, default_pair, generated, mean_and_peak_to_peak, meshes_folder, modified, of_order, of_widths,
-    planet_in_ring, quadratic, scaled, structured,
+    Case, default_data, default_pair, generated, mean_and_peak_to_peak, meshes_folder, modified, nrel_planet_in_ring,
+    of_order, of_widths, planet_in_ring, quadratic, scaled, structured,
 };
 pub use cases::{ALL_CASES, cases};
 pub use holes::with_holes;

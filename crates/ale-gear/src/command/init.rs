@@ -66,10 +66,10 @@ struct PairArgs {
     /// The pinion's helix angle, right hand positive [default: 20]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     helix_deg: Option<f64>,
-    /// Face width of both gears [default: 20]
+    /// Face width of both gears [default: 20; of a stage 20/3 modules]
     #[arg(long, value_name = "MM")]
     face_width_mm: Option<f64>,
-    /// Torque on the driven gear [default: 150]
+    /// Torque on the driven gear [default: 150; of a stage, on its driven member, 1000 at module 3, with the cube of the module]
     #[arg(long, value_name = "NM")]
     torque_nm: Option<f64>,
     /// Speed of the driver [default: 1000]

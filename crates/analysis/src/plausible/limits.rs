@@ -14,7 +14,7 @@ pub(super) const DEFLECTION_BOUND: f64 = 0.3;
 /// plastics at 0.1.
 pub(super) const PRESSURE_BOUND: f64 = 0.3;
 
-const HINT: &str = "elasticity here is linear and holds for small deflections: is the torque in N m, Young's modulus in MPa, the face width in mm, micro-geometry in um?";
+const HINT: &str = "elasticity here is linear and holds for small deflections: is the torque in N m, Young's modulus in MPa, the face width in mm, micro-geometry in um? Do springs under a bore hold the gear?";
 
 /// E* of the materials of both gears, MPa: `1/E* = sum (1 - nu^2)/E`.
 pub(crate) fn effective_modulus(scene: &Scene) -> f64 {

@@ -1,18 +1,9 @@
 //! Bores on springs: what they give is told where it counts.
 
 use analysis::StaticAnalysis;
-use scene::{Scene, SceneBuilder};
+use scene::SceneBuilder;
 
-fn small() -> SceneBuilder {
-    let mut scene = Scene::builder().pinion(18, 14.0).wheel(31).normal_module_mm(2.5).face_width_mm(15.0);
-    for gear in ["pinion", "wheel"] {
-        let counts = [("order", 1), ("elements_profile", 2), ("elements_fillet", 2), ("elements_thickness", 2)];
-        for (key, value) in counts.iter().chain(&[("elements_face", 3), ("elements_rim", 1)]) {
-            scene = scene.set(&format!("{gear}.mesher.{key}"), *value);
-        }
-    }
-    scene.torque_nm(100.0).set("contact.slices", 8).set("analysis.positions_per_cycle", 2)
-}
+use crate::jammed::small;
 
 /// A gear on springs gives as a rigid body on them does, beside what it gave before, and hears so; one on stiff springs, and one
 /// on none, hears nothing.

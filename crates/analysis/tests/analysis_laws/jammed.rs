@@ -7,7 +7,7 @@ fn built(scene: SceneBuilder) -> Scene {
     scene.build().unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn small() -> SceneBuilder {
+pub fn small() -> SceneBuilder {
     let mut scene = Scene::builder().pinion(18, 14.0).wheel(31).normal_module_mm(2.5).face_width_mm(15.0);
     for gear in ["pinion", "wheel"] {
         let counts = [("order", 1), ("elements_profile", 2), ("elements_fillet", 2), ("elements_thickness", 2)];

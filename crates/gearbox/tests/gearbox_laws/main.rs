@@ -12,6 +12,7 @@ mod idlers;
 mod internal_motion;
 mod involute_mesh;
 mod joined;
+mod load_zones;
 mod mapped_friction;
 mod mapped_pair;
 mod modes_in_motion;

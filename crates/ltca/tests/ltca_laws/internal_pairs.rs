@@ -1,10 +1,10 @@
 //! A pinion in a ring at rest: laws, search, reduced gears and full ones.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use geometry::{Driver, Gear, GearData, GearPair, Shaper};
+use geometry::{Driver, Gear, GearData, GearPair};
 use ltca::{StaticHistory, StaticOptions};
 use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
-use testing::{Case, planet_in_ring, quadratic};
+use testing::{Case, nrel_planet_in_ring, planet_in_ring, quadratic};
 
 fn case(beta_deg: f64, extent: Extent) -> Case {
     quadratic(planet_in_ring(beta_deg), None, 300e3, [4, 4, 2, 4, 2], extent)
@@ -140,33 +140,12 @@ fn roots_of_a_ring_are_pulled_below_the_load() {
     }
 }
 
-/// The planet and the ring of NREL's second stage, a seventh of their size, and the torque on the ring at 250 N/mm of 12 mm face.
-fn nrel_planet(counts: [u32; 5]) -> Case {
-    let data = GearData { normal_module: 3.0, helix_angle: 0.0, face_width: 12.0, ..GearData::default() };
-    let planet = GearData {
-        teeth: 36,
-        profile_shift: 0.5039,
-        bore_diameter: 60.0,
-        tip_diameter: Some(36.0 * 3.0 + 2.0 * (3.0 * 1.5039 - 0.25)),
-        ..data.clone()
-    };
-    let ring = GearData {
-        teeth: 93,
-        profile_shift: 0.1171,
-        bore_diameter: -310.0,
-        root_radius_coefficient: 0.3,
-        shaper: Some(Shaper { teeth: 30, profile_shift: 0.0 }),
-        ..data
-    };
-    quadratic([planet, ring], Some(-584.0 / 7.0), 250.0 * 12.0 * 131.1, counts, Extent::Periodic)
-}
-
 /// Transmission errors of a planet in its ring on the default mesh are those of meshes finer in every direction: 0.3 %. The mean stiffness
 /// is that of ISO 6336-1 within 25 %: c_gamma_alpha 20.563 N/(mm um) after KISSsoft, with the solid bodies of its gears.
 #[test]
 fn a_planet_in_its_ring_is_settled_and_as_stiff_as_iso_says() {
     let solved = |counts| {
-        let case = nrel_planet(counts);
+        let case = nrel_planet_in_ring(GearData::default().thickness_allowance, counts, Extent::Periodic);
         case.reduced(case.slice_options()).run(4, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"))
     };
     let default = solved([6, 6, 4, 6, 5]);

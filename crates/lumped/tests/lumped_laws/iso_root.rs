@@ -95,12 +95,7 @@ fn section_is_that_of_the_exact_fillet() {
             let [half, height] = at(t);
             assert!((found.root_chord - 2.0 * half).abs() < 1e-10, "chord {}, not {}", found.root_chord, 2.0 * half);
 
-            let h = 1e-4;
-            let [a, b, c] = [at(t - h), at(t), at(t + h)];
-            let first = [0, 1].map(|k| (c[k] - a[k]) / (2.0 * h));
-            let second = [0, 1].map(|k| (c[k] - 2.0 * b[k] + a[k]) / (h * h));
-            let curved = (first[0] * second[1] - first[1] * second[0]).abs();
-            let radius = first[0].hypot(first[1]).powi(3) / curved;
+            let radius = radius_of_curvature(at, t);
             assert!((found.fillet_radius / radius - 1.0).abs() < 1e-5, "{}, not {radius}", found.fillet_radius);
 
             // The load is tangent to the base circle: it crosses the middle at r_b / cos(angle).
@@ -121,6 +116,15 @@ fn section_is_that_of_the_exact_fillet() {
     assert_eq!(tried, 15);
 }
 
+/// Radius of curvature of a plane curve, by differences.
+fn radius_of_curvature(at: impl Fn(f64) -> [f64; 2], t: f64) -> f64 {
+    let h = 1e-4;
+    let [a, b, c] = [at(t - h), at(t), at(t + h)];
+    let first = [0, 1].map(|k| (c[k] - a[k]) / (2.0 * h));
+    let second = [0, 1].map(|k| (c[k] - 2.0 * b[k] + a[k]) / (h * h));
+    first[0].hypot(first[1]).powi(3) / (first[0] * second[1] - first[1] * second[0]).abs()
+}
+
 fn ring(teeth: u32, cutter: u32, shift: f64) -> GearData {
     GearData {
         bore_diameter: -f64::from(teeth) - 14.0,
@@ -136,6 +140,7 @@ fn ring(teeth: u32, cutter: u32, shift: f64) -> GearData {
 /// of the path than the whole away from the tip.
 #[test]
 fn section_of_a_ring_is_that_of_its_exact_fillet() {
+    let mut tried = 0;
     for (teeth, cutter, x, thinning) in [(93, 30, 0.1171, 0.0), (80, 30, -0.2, 0.05), (60, 30, 0.1, 0.1)] {
         for more in [0, 1, 2] {
             // Ring and shaper both have a tenth more of virtual teeth.
@@ -160,12 +165,7 @@ fn section_of_a_ring_is_that_of_its_exact_fillet() {
             };
             let [half, height] = at(t);
             assert!((found.root_chord - 2.0 * half).abs() < 1e-9, "chord {}, not {}", found.root_chord, 2.0 * half);
-            let h = 1e-4;
-            let [a, b, c] = [at(t - h), at(t), at(t + h)];
-            let first = [0, 1].map(|k| (c[k] - a[k]) / (2.0 * h));
-            let second = [0, 1].map(|k| (c[k] - 2.0 * b[k] + a[k]) / (h * h));
-            let curved = (first[0] * second[1] - first[1] * second[0]).abs();
-            let radius = first[0].hypot(first[1]).powi(3) / curved;
+            let radius = radius_of_curvature(at, t);
             assert!((found.fillet_radius / radius - 1.0).abs() < 1e-5, "{}, not {radius}", found.fillet_radius);
 
             let crossing = spur.base_radius() / found.load_angle.cos();
@@ -177,8 +177,11 @@ fn section_of_a_ring_is_that_of_its_exact_fillet() {
             let roll = ((tip_radius.powi(2) - spur.base_radius().powi(2)).sqrt() + back) / spur.base_radius().abs();
             let angle = roll.atan() - profile.half_angle(roll);
             assert!((found.load_angle - angle).abs() < 1e-12, "load angle {}, not {angle}", found.load_angle);
+            tried += 1;
         }
     }
+    // Of the first ring no multiple of its cutter has whole numbers of teeth.
+    assert_eq!(tried, 7);
 }
 
 /// The edition of 2006 takes the rack of a ring, with a rounding that allows for the shaper's teeth:

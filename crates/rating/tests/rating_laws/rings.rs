@@ -2,7 +2,7 @@
 
 use rating::{
     FlankFactors, Lubricants, Lubrication, LubricationMethod, PairGeometry, PressedPlace, RatingInput, Rolling,
-    ScuffingInput, SolvedContact, scuffing_rating, standard_rating,
+    ScuffingInput, SolvedContact, StandardRating, scuffing_rating, standard_rating,
 };
 
 use crate::pair::nrel;
@@ -65,23 +65,20 @@ fn lubrication() -> Lubrication {
     }
 }
 
+/// Steel, driven by the pinion.
+fn scuffing<'a>(pair: &'a RatingInput, standard: &'a StandardRating) -> ScuffingInput<'a> {
+    let (young, poisson) = ([206_000.0; 2], [0.3; 2]);
+    let (lubrication, driver, structural_factor) = (lubrication(), 0, 1.0);
+    ScuffingInput { pair, standard, lubrication, young, poisson, driver, structural_factor }
+}
+
 /// Every number of pitting, bending and scuffing of a pinion on a rack, as the limit of rings and of external wheels.
 #[test]
 fn rings_and_wheels_become_the_same_rack() {
     let rated = |teeth: f64| {
         let input = input(teeth);
         let standard = standard_rating(&input).unwrap_or_else(|e| panic!("{e}"));
-        let (young, poisson) = ([206_000.0; 2], [0.3; 2]);
-        let scuffing = ScuffingInput {
-            pair: &input,
-            standard: &standard,
-            lubrication: lubrication(),
-            young,
-            poisson,
-            driver: 0,
-            structural_factor: 1.0,
-        };
-        let hot = scuffing_rating(&scuffing).unwrap_or_else(|e| panic!("{e}"));
+        let hot = scuffing_rating(&scuffing(&input, &standard)).unwrap_or_else(|e| panic!("{e}"));
         [
             standard.nominal_contact_stress_mpa,
             standard.pinion.pitting_safety,
@@ -125,16 +122,7 @@ fn heat_of_a_ring_is_that_of_blok() {
     let input = input(-93.0);
     let g = input.geometry;
     let standard = standard_rating(&input).unwrap();
-    let (young, poisson) = ([206_000.0; 2], [0.3; 2]);
-    let scuffing = ScuffingInput {
-        pair: &input,
-        standard: &standard,
-        lubrication: lubrication(),
-        young,
-        poisson,
-        driver: 0,
-        structural_factor: 1.0,
-    };
+    let scuffing = scuffing(&input, &standard);
     let rolling = Rolling::new(&g, input.pinion_speed_rpm);
     let pitch = rolling.pitch().unwrap();
     assert!(pitch.sliding_speed() < 1e-12 * pitch.rolling_speed());

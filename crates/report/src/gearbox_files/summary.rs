@@ -188,7 +188,7 @@ described::described! {
         load_zone_deg: f64,
         /// angle of each rolling element from +x towards +y, row by row
         element_angles_deg: Vec<f64>,
-        /// mean force of each of them over all positions
+        /// mean force of each of them over all positions, along its contact angle: of a row at an angle they sum up to more than the radial force
         element_mean_forces_n: Vec<f64>,
         /// force on the most loaded rolling element
         max_element_force_n: f64,
