@@ -41,8 +41,10 @@ def main():
                 return
             job = Job()
             for cases, part in missing.items():
+                # What a task says stays with its part, not in the folder that this was called from.
                 job.program([words.program, "--quiet", "-j", "1", "vary", str(words.plan.absolute()), "--cases", cases,
-                             "--out", str(part)], name=cases)
+                             "--out", str(part)], name=cases,
+                            stdout=parts / f"{cases}.stdout", stderr=parts / f"{cases}.stderr")
             print("tasks", len(missing), flush=True)
             try:
                 client.wait_for_jobs([client.submit(job)])
