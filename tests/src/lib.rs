@@ -6,6 +6,7 @@ pub mod judged;
 pub mod killed;
 #[allow(clippy::print_stdout, reason = "the figures of a fit are what commands call it for")]
 pub mod law_fit;
+pub mod measured_gearbox;
 pub mod measured_motion;
 pub mod measured_pair;
 pub mod pair_bounds;

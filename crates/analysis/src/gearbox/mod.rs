@@ -55,6 +55,7 @@ use crate::{
     context::{Context, Ending, Question},
 };
 use accuracy::solve_accurately;
+pub use accuracy::{GearboxCalibration, GearboxLaw};
 pub use bearings::{BearingLife, RollingLoad};
 pub use branch::GearboxBranchResult;
 use motion::Span;

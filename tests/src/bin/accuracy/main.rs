@@ -5,8 +5,9 @@
 //! accuracy renew FOLDER MINUTES                       all of it, going on where the last run stopped
 //! accuracy measure rest FILE SEED FIRST COUNT [FINEST | curves | spur]
 //! accuracy measure motion FILE SEED FIRST COUNT [MESH_RUNG]
-//! accuracy calibrate rest|motion OUT.json FILE...
-//! accuracy check laws FILE...                         committed laws on measured pairs, by quantity and stratum
+//! accuracy measure gearbox FILE SEED FIRST COUNT
+//! accuracy calibrate rest|motion|gearbox OUT.json FILE...
+//! accuracy check laws FILE...                         committed laws on measured pairs and gearboxes, by quantity and stratum
 //! accuracy check rest TOLERANCE_PERCENT COUNT FILE... `model = "auto"` on measured pairs, with its cost
 //! accuracy check motion TOLERANCE_PERCENT SEED FIRST COUNT [MESH_RUNG]
 //! accuracy check gearbox TOLERANCE_PERCENT SEED FIRST COUNT

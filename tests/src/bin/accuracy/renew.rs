@@ -19,13 +19,15 @@ struct Part {
 }
 
 /// What is measured, in this order: some of everything before all of anything.
-const PARTS: [Part; 7] = [
+const PARTS: [Part; 9] = [
     Part { name: "spur", kind: "rest", more: Some("spur"), seed: 4, pairs: 320 },
     Part { name: "rest", kind: "rest", more: None, seed: 101, pairs: 300 },
     Part { name: "rest_held_out", kind: "rest", more: None, seed: 102, pairs: 200 },
     Part { name: "rings", kind: "rest", more: Some("6"), seed: 1001, pairs: 100 },
     Part { name: "rings_held_out", kind: "rest", more: Some("6"), seed: 1002, pairs: 100 },
     Part { name: "motion", kind: "motion", more: None, seed: 103, pairs: 200 },
+    Part { name: "gearboxes", kind: "gearbox", more: None, seed: 111, pairs: 400 },
+    Part { name: "gearboxes_held_out", kind: "gearbox", more: None, seed: 112, pairs: 400 },
     Part { name: "curves", kind: "rest", more: Some("curves"), seed: 105, pairs: 1000 },
 ];
 /// Pairs of a part that are measured before the next one has its turn.
@@ -52,6 +54,10 @@ pub(super) fn run(words: &[String]) -> Result<(), Failure> {
     let there = |names: &[&str]| -> Vec<String> {
         names.iter().map(|name| file(name)).filter(|file| Path::new(file).exists()).collect()
     };
+    let gearboxes = there(&["gearboxes"]);
+    if !gearboxes.is_empty() {
+        calibrate::run(&[vec!["gearbox".into(), format!("{folder}/gearbox.json")], gearboxes].concat())?;
+    }
     let (rest, motion) = (there(&["rest", "curves", "spur", "rings"]), there(&["motion"]));
     let measured = verification::measured_pair::MeasuredPair::all(&verification::pairs_done::lines(&rest)?);
     let whole = measured.iter().filter(|pair| pair.has_meshes()).count();
@@ -64,5 +70,5 @@ pub(super) fn run(words: &[String]) -> Result<(), Failure> {
         calibrate::run(&[vec!["motion".into(), format!("{folder}/motion.json")], motion.clone()].concat())?;
         page::run(&[vec![format!("{folder}/which_model.md")], motion].concat())?;
     }
-    check::run(&[vec!["laws".into()], there(&["rest_held_out", "rings_held_out"])].concat())
+    check::run(&[vec!["laws".into()], there(&["rest_held_out", "rings_held_out", "gearboxes_held_out"])].concat())
 }

@@ -6,12 +6,14 @@
 //!
 //! | file | question |
 //! |---|---|
+//! | `calibration` | how much of such bounds do errors fill? |
 //! | `ladder` | which settings are exact enough? |
 //! | `settings` | which settings are there, and which of them are the program's to choose? |
 //! | `sample` | which numbers are bounded? |
 //! | `pairs` | what do laws of pairs say of the meshes? |
 //! | `seen` | what is seen of the error of a run, and what are its bounds? |
 
+mod calibration;
 mod ladder;
 mod pairs;
 mod sample;
@@ -25,6 +27,7 @@ use crate::{
     AnalysisError, GearCache, Observer, SharedModels,
     accuracy::{Accuracy, Climbed, GearMemo, climb},
 };
+pub use calibration::{GearboxCalibration, GearboxLaw};
 use ladder::GearboxLadder;
 
 /// Solves a gearbox that asks for an accuracy, with settings from coarse to fine until the bounds keep it.

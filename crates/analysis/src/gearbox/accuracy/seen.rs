@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use scene::{Quantity, gearbox::Gearbox};
 
 use super::{
+    calibration::GearboxCalibration,
     pairs::{OfPair, bound},
     sample::{Sample, Which, lowest},
 };
@@ -67,8 +68,15 @@ impl Seen<'_> {
         .collect()
     }
 
+    /// Parts of the bound of a value, by the share that errors of gearboxes like this one fill of it. Theory (67c).
     fn terms(&self, which: Which, value: f64) -> Vec<Term> {
-        CAUSES.map(|cause| self.with_law(which, value, (cause, self.seen(which, value, cause)))).to_vec()
+        let covered = GearboxCalibration::covers(self.file);
+        let factor = if covered { GearboxCalibration::committed().factor(which.quantity) } else { 1.0 };
+        let term = |cause| {
+            let term = self.with_law(which, value, (cause, self.seen(which, value, cause)));
+            Term { amount: factor * term.amount, ..term }
+        };
+        CAUSES.map(term).to_vec()
     }
 
     /// What differences between settings say of a cause.
@@ -158,11 +166,13 @@ impl Seen<'_> {
                 }
             }
         }
-        all.push(
-            "misalignment, face load factor, bearing force and natural frequency have no laws: their bounds are \
-             differences between settings, times what the grid convergence index says"
-                .into(),
-        );
+        if !GearboxCalibration::covers(self.file) {
+            all.push(
+                "gearboxes of other than one external mesh: bounds of misalignment, face load factor, bearing force and \
+                 natural frequency are differences between settings, times what the grid convergence index says"
+                    .into(),
+            );
+        }
         all.push("shafts, bearings and housing as they are given".into());
         all
     }

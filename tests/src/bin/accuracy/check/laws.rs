@@ -1,10 +1,12 @@
-//! The committed laws of pairs at rest on measured pairs that none of them was made of: no run is needed.
+//! The committed laws on measured pairs at rest and gearboxes that none of them was made of: no run is needed.
 
 use std::collections::BTreeMap;
 
-use analysis::accuracy::Quantity;
+use analysis::{accuracy::Quantity, gearbox::GearboxCalibration};
+use serde_json::Value;
 use verification::{
     held_out::held_out,
+    measured_gearbox::{MeasuredBound, QUANTITIES, bounds_of},
     measured_pair::MeasuredPair,
     pair_bounds::{PairBound, pair_bounds},
     pairs_done::lines,
@@ -37,9 +39,11 @@ impl Stratum {
     }
 }
 
-/// All pairs of the files; tables by quantity and stratum.
+/// All pairs and gearboxes of the files; tables by quantity and stratum.
 pub(super) fn check(files: &[String]) -> Result<(), Failure> {
-    let pairs: Vec<MeasuredPair> = MeasuredPair::all(&lines(files)?)
+    let lines = lines(files)?;
+    gearboxes(&lines);
+    let pairs: Vec<MeasuredPair> = MeasuredPair::all(&lines)
         .into_iter()
         .filter(|pair| pair.has_meshes() && pair.has_curves() && held_out(pair.seed))
         .collect();
@@ -61,6 +65,28 @@ pub(super) fn check(files: &[String]) -> Result<(), Failure> {
         println!("| `{key}` | {} |", cells.collect::<Vec<_>>().join(" | "));
     }
     Ok(())
+}
+
+/// What the committed factors make of bounds of gearboxes.
+fn gearboxes(lines: &[Value]) {
+    let all = lines.iter().filter(|line| line["seed"].as_u64().is_some_and(held_out));
+    let all: Vec<Vec<MeasuredBound>> = all.map(bounds_of).filter(|own| !own.is_empty()).collect();
+    if all.is_empty() {
+        return;
+    }
+    println!(
+        "{} gearboxes that no factor was made of\n\n| number | bounds | hold | median bound over error |\n|---|---|---|---|",
+        all.len()
+    );
+    for q in QUANTITIES {
+        let factor = GearboxCalibration::committed().factor(q);
+        let own: Vec<&MeasuredBound> = all.iter().flatten().filter(|bound| bound.key == q.key()).collect();
+        let hold = own.iter().filter(|bound| bound.filled() <= factor).count();
+        let mut sharpness: Vec<f64> = own.iter().map(|bound| bound.sharpness(factor)).collect();
+        let share = 100.0 * hold as f64 / own.len() as f64;
+        println!("| `{}` | {} | {share:.1} % | {:.1} |", q.key(), own.len(), median(&mut sharpness));
+    }
+    println!();
 }
 
 /// Strata that a pair belongs to.

@@ -1,8 +1,10 @@
 //! What bounds are calibrated on: numbers of random pairs on settings from coarse to fine.
 //!
 //! `rest`: meshes refined alike in all directions, more slices, and the curves over a mesh cycle on the coarsest rung; with
-//! `curves` these alone, with `spur` those of the spur pairs. `motion`: every model, with few and many steps.
+//! `curves` these alone, with `spur` those of the spur pairs. `motion`: every model, with few and many steps. `gearbox`: bounds that are asked for
+//! several shares, beside fine settings.
 
+mod gearbox;
 mod motion;
 mod rest;
 
@@ -30,14 +32,15 @@ pub(super) fn run(words: &[String]) -> Result<(), Failure> {
 /// As [`run`]; after some time no further pair is begun.
 pub(super) fn until(words: &[String], until: Instant) -> Result<(), Failure> {
     let [kind, file, seed, first, count, more @ ..] = words else {
-        return Err("rest|motion FILE SEED FIRST COUNT are wanted".into());
+        return Err("rest|motion|gearbox FILE SEED FIRST COUNT are wanted".into());
     };
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
     let more = more.first().map(String::as_str);
     let measure: Measure = match kind.as_str() {
         "rest" => rest::measure(seed, more)?,
         "motion" => motion::measure(seed, more)?,
-        _ => return Err("`rest` or `motion` is wanted first".into()),
+        "gearbox" => gearbox::measure(seed, more)?,
+        _ => return Err("`rest`, `motion` or `gearbox` is wanted first".into()),
     };
     let done = pairs_done(file, seed)?;
     let mut out = OpenOptions::new().create(true).append(true).open(file)?;
