@@ -15,7 +15,10 @@ use faer::{
 };
 use rayon::prelude::*;
 
-use crate::FemError;
+use crate::{
+    FemError,
+    column_blocks::{ColumnBlocks, ColumnBlocksMut},
+};
 
 /// Columns of a task: wide enough for fast products, narrow enough to spread evenly over the threads.
 const BLOCK: usize = 96;

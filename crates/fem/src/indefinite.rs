@@ -18,6 +18,7 @@ use rayon::prelude::*;
 
 use crate::{
     FemError, SymmetricMatrix,
+    column_blocks::ColumnBlocksMut,
     ordering::{Ordering, supernodal, try_zeroed},
 };
 

@@ -17,6 +17,7 @@
 
 mod assembly;
 pub mod beam;
+mod column_blocks;
 mod condensation;
 pub mod dense;
 mod dofs;

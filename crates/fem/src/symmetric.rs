@@ -7,7 +7,10 @@ use faer::{
 };
 use rayon::prelude::*;
 
-use crate::FemError;
+use crate::{
+    FemError,
+    column_blocks::{ColumnBlocks, ColumnBlocksMut},
+};
 
 /// A real symmetric sparse matrix: the lower triangle in compressed columns, rows ascending.
 #[derive(Debug, Clone)]

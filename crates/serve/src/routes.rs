@@ -17,13 +17,15 @@ use hyper::{
 use report::page::scripts;
 use tokio::sync::oneshot;
 
+use live::{
+    Change, Fault,
+    page::{self, Answers},
+};
+
 use crate::{
-    fault::Fault,
     guard::Guard,
-    page,
     queue::Queue,
     reply::{Reply, json, reply, says},
-    session::Change,
     visit::{TRANSFER, Visit},
 };
 
@@ -90,7 +92,8 @@ impl Routes {
         let both = |a: &str, b: &str| Bytes::from(format!("{a}\n{b}"));
         let script = |text: Bytes| reply(StatusCode::OK, "text/javascript; charset=utf-8", text);
         match name {
-            "" => match page::html((self.start.0.as_str(), self.start.1.as_path()), self.queue.open()) {
+            "" => match page::html((self.start.0.as_str(), self.start.1.as_path()), Answers::Server(self.queue.open()))
+            {
                 Ok(html) => reply(StatusCode::OK, "text/html; charset=utf-8", html),
                 Err(error) => says(StatusCode::INTERNAL_SERVER_ERROR, &error.to_string()),
             },

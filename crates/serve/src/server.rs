@@ -4,21 +4,16 @@ use std::{
     io,
     net::{Ipv4Addr, SocketAddr, TcpListener},
     path::Path,
-    sync::{Arc, mpsc},
+    sync::{Arc, LazyLock, mpsc},
     thread,
+    time::Instant,
 };
 
 use analysis::GearCache;
+use live::{Machine, Session};
 use tokio::{runtime, sync::Notify};
 
-use crate::{
-    guard::Guard,
-    listen,
-    queue::Queue,
-    routes::Routes,
-    session::{Limits, Session},
-    workers::Workers,
-};
+use crate::{guard::Guard, listen, queue::Queue, routes::Routes, workers::Workers};
 
 /// Why no page can be served.
 #[derive(Debug, thiserror::Error)]
@@ -65,6 +60,12 @@ impl std::fmt::Debug for Server {
     }
 }
 
+/// Time since it was first asked for, ms.
+fn clock_ms() -> f64 {
+    static FIRST: LazyLock<Instant> = LazyLock::new(Instant::now);
+    1e3 * FIRST.elapsed().as_secs_f64()
+}
+
 /// Ends a server, from any thread.
 #[derive(Debug, Clone)]
 pub struct Stop(Arc<Notify>);
@@ -105,11 +106,17 @@ impl Server {
     }
 
     /// Serves the page of a scene's text until it is stopped; `file` is what messages name and what paths are relative
-    /// to. Reduced gears come from `cache` and go there. Nothing that a client sends ends it.
+    /// to. Reduced gears come from `cache` and go there; `free_bytes` says how much memory is free. Nothing that a client sends ends it.
     ///
     /// # Errors
     /// [`ServeError::Start`] when the system gives no means to wait for requests.
-    pub fn run(self, text: &str, file: &Path, limits: Limits, cache: &dyn GearCache) -> Result<(), ServeError> {
+    pub fn run(
+        self,
+        text: &str,
+        file: &Path,
+        free_bytes: fn() -> f64,
+        cache: &dyn GearCache,
+    ) -> Result<(), ServeError> {
         let Self { listener, address, guard, stop } = self;
         let start = |source| ServeError::Start { address, source };
         let runtime = runtime::Builder::new_current_thread().enable_io().enable_time().build().map_err(start)?;
@@ -118,7 +125,7 @@ impl Server {
             tokio::net::TcpListener::from_std(listener).map_err(start)?
         };
         let (queue, (work, jobs)) = (Arc::new(Queue::default()), mpsc::channel());
-        let session = Session::new(text, file, limits, cache);
+        let session = Session::new(text, file, Machine { free_bytes, clock_ms }, cache);
         let workers = Workers::new(&session, &queue);
         thread::scope(|scope| {
             let workers = &workers;

@@ -7,12 +7,12 @@ use std::{
 };
 
 use analysis::Interest;
+use live::Session;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::{
     queue::{Asked, Queue},
     routes::Job,
-    session::Session,
 };
 
 /// Solves moves, each on threads of its own: a reduction of one page keeps no thread from another page.

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use ::serve::{Limits, Server};
+use ::serve::Server;
 use files::hold_still;
 
 use super::cache_args::CacheArgs;
@@ -50,8 +50,7 @@ impl ServeArgs {
         {
             talk::note(format!("no browser was opened ({error}): open the address above in one"));
         }
-        let limits = Limits { free_bytes: memory::available_bytes };
-        let served = server.run(&text, &file, limits, &self.cache.open());
+        let served = server.run(&text, &file, memory::available_bytes, &self.cache.open());
         // For good: a reduction that goes on would begin a file of the cache that nobody ends.
         std::mem::forget(hold_still());
         served.map_err(|e| CommandError::input(&e, Some(e.hint())))?;

@@ -3,7 +3,7 @@
 
 use std::{collections::HashSet, ptr, sync::Mutex};
 
-use super::graph::Graph;
+use super::{Dissection, SEPARATOR, graph::Graph};
 use crate::FemError;
 
 /// METIS draws from the C library's global random numbers: two calls at a time would make either's result
@@ -33,18 +33,6 @@ fn classes(graph: &Graph) -> usize {
     };
     (0..graph.group_count()).map(key).collect::<HashSet<_>>().len()
 }
-
-/// What a dissection makes of a graph.
-#[derive(Debug, PartialEq)]
-pub(super) struct Dissection {
-    /// `order[new] = group`, with little fill.
-    pub order: Vec<usize>,
-    /// Piece of each group; [`SEPARATOR`] of those between pieces.
-    pub piece: Vec<u32>,
-}
-
-/// In place of the number of a piece: groups that pieces have been parted by.
-pub(super) const SEPARATOR: u32 = u32::MAX;
 
 /// Fill-reducing order of the graph's groups, and the `pieces` (a power of 2) that its first cuts leave: no two of them
 /// have a common edge. The order does not depend on their number as long as each has more than the 120 groups below which

@@ -1,10 +1,13 @@
 //! Order of elimination: nested dissection of the interior, chosen degrees of freedom last.
 //!
-//! METIS dissects the graph of nodes; degrees of freedom with the same neighbours count as one node. A postorder of the
+//! METIS dissects the graph of nodes (a browser, which has no C library, orders by minimum degree); degrees of freedom with the same neighbours count as one node. A postorder of the
 //! elimination tree then groups columns of equal structure. This gives fewer and larger supernodes with the same fill.
 
 mod graph;
+#[cfg(not(target_family = "wasm"))]
 mod metis;
+#[cfg(any(test, target_family = "wasm"))]
+mod minimum_degree;
 
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
@@ -25,6 +28,22 @@ use faer::{
 
 use crate::{FemError, SymmetricMatrix};
 use graph::Graph;
+#[cfg(not(target_family = "wasm"))]
+use metis::nested_dissection;
+#[cfg(target_family = "wasm")]
+use minimum_degree::nested_dissection;
+
+/// What a dissection makes of a graph.
+#[derive(Debug, PartialEq)]
+struct Dissection {
+    /// `order[new] = group`, with little fill.
+    order: Vec<usize>,
+    /// Piece of each group; [`SEPARATOR`] of those between pieces.
+    piece: Vec<u32>,
+}
+
+/// In place of the number of a piece: groups that pieces have been parted by.
+const SEPARATOR: u32 = u32::MAX;
 
 /// An order of elimination and its inverse.
 #[derive(Debug, Clone)]
@@ -66,10 +85,10 @@ impl Ordering {
             }
         }
         let graph = Graph::new(matrix, &is_last)?;
-        let dissection = metis::nested_dissection(&graph, pieces)?;
+        let dissection = nested_dissection(&graph, pieces)?;
         let order = graph.postorder(&dissection.order);
         let mut piece_of = vec![None; n];
-        for (group, &piece) in dissection.piece.iter().enumerate().filter(|(_, piece)| **piece != metis::SEPARATOR) {
+        for (group, &piece) in dissection.piece.iter().enumerate().filter(|(_, piece)| **piece != SEPARATOR) {
             graph.members(group).iter().for_each(|&dof| piece_of[dof] = Some(piece));
         }
         let mut forward: Vec<usize> = order.iter().flat_map(|&group| graph.members(group)).copied().collect();

@@ -15,7 +15,11 @@ use faer::{Mat, MatRef};
 use mesh::{Face, Mesh};
 use rayon::prelude::*;
 
-use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
+use crate::{
+    DofMap, ElementOptions, FemError, Material,
+    assembly::check_blocks,
+    column_blocks::{ColumnBlocks, ColumnBlocksMut},
+};
 use element::ElementStress;
 use patch::Patches;
 

@@ -9,7 +9,7 @@ use std::{
 
 use analysis::NoCache;
 use serde_json::{Value, json};
-use serve::{Limits, Server, Stop};
+use serve::{Server, Stop};
 
 /// A pair without meshes: solved at once.
 pub const ISO: &str = "[pinion]\nteeth = 30\nhelix_angle_deg = 20.0\n[wheel]\nteeth = 30\n[pair]\nnormal_module_mm = 3.0\n\
@@ -45,8 +45,7 @@ impl Served {
         let address = server.local_address();
         let path = server.address().split_once(&address.to_string()).unwrap().1.to_owned();
         let (stop, text) = (server.stop_handle(), text.to_owned());
-        let limits = Limits { free_bytes: || 1e12 };
-        let thread = std::thread::spawn(move || server.run(&text, Path::new("a.toml"), limits, &NoCache).unwrap());
+        let thread = std::thread::spawn(move || server.run(&text, Path::new("a.toml"), || 1e12, &NoCache).unwrap());
         Self { address, path, stop, thread: Some(thread) }
     }
 

@@ -15,7 +15,10 @@ use super::{
     },
     PartedFactor, Place,
 };
-use crate::FemError;
+use crate::{
+    FemError,
+    column_blocks::{ColumnBlocks, ColumnBlocksMut},
+};
 
 /// Rows that are asked for: number in the result, and row of a piece or the top.
 type Asked = Vec<(usize, usize)>;
@@ -229,7 +232,7 @@ impl PartedFactor {
             let near = asked.and_then(|asked| asked.get(&piece)).map(|a| factor.part(a.iter().map(|&(_, row)| row)));
             let (near, rows, border) =
                 (near.as_ref().unwrap_or(&whole), self.pieces.rows(piece), self.pieces.border(piece));
-            let columns = x.rb_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(top.par_col_chunks(COLUMN_BLOCK));
+            let columns = x.rb_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(top.as_ref().par_col_chunks(COLUMN_BLOCK));
             columns.for_each(|(mut x, top)| {
                 let mut own = Mat::zeros(factor.n(), x.ncols());
                 for c in 0..x.ncols() {

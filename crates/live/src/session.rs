@@ -5,7 +5,6 @@ use std::{
     ops::ControlFlow,
     path::Path,
     sync::{Arc, Mutex, PoisonError},
-    time::Instant,
 };
 
 use analysis::{
@@ -40,16 +39,19 @@ use crate::{
     sliders::{Slider, completed, short, sliders, sliders_of_gearbox, with_starts},
 };
 
-/// What a solve may take.
+/// What the machine says of itself.
 #[derive(Debug, Clone, Copy)]
-pub struct Limits {
+pub struct Machine {
     /// Memory that is free, bytes.
     pub free_bytes: fn() -> f64,
+    /// Time since some moment, ms.
+    pub clock_ms: fn() -> f64,
 }
 
-/// A move of the page: the text of its scene, and all that is set otherwise by hand.
+/// A move of the page, as JSON: the text of its scene, and all that is set otherwise by hand.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Change {
+pub struct Change {
+    /// Number of the page.
     pub page: u64,
     /// Moves of a page are numbered as they are made.
     pub number: u64,
@@ -98,19 +100,19 @@ pub(crate) enum Subject {
 }
 
 /// Where scenes are tried, all on the same reduced gears.
-pub(crate) struct Session<'a> {
+pub struct Session<'a> {
     start: &'a str,
     /// The text that was read last, with the files that it names.
     last: Mutex<Document>,
-    limits: Limits,
+    machine: Machine,
     models: SharedModels<'a>,
     /// Reduced gears of gearboxes.
     gears: GearMemo<'a>,
     schema: serde_json::Value,
 }
 
-/// What a move asks for.
-pub(crate) struct Taken {
+/// What a move asks for: [`Session::take`].
+pub struct Taken {
     /// The scene with what is set by hand.
     text: String,
     /// Sliders of the scene before.
@@ -138,12 +140,24 @@ enum Solved {
     Gearbox(Box<SolvedGearbox>),
 }
 
+impl std::fmt::Debug for Session<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Session").field("start", &self.start).finish_non_exhaustive()
+    }
+}
+
+impl std::fmt::Debug for Taken {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Taken").field("text", &self.text).finish_non_exhaustive()
+    }
+}
+
 impl<'a> Session<'a> {
     /// With the text of a scene to begin with.
-    pub fn new(start: &'a str, file: &Path, limits: Limits, cache: &'a dyn GearCache) -> Self {
+    pub fn new(start: &'a str, file: &Path, machine: Machine, cache: &'a dyn GearCache) -> Self {
         let (models, schema) = (SharedModels::new(cache), scene::json_schema()["$defs"]["pair"].take());
         let last = Mutex::new(Document::new(start.to_owned(), file));
-        Self { start, last, limits, models, gears: GearMemo::new(cache), schema }
+        Self { start, last, machine, models, gears: GearMemo::new(cache), schema }
     }
 
     /// The scene to begin with, where this page can show it.
@@ -281,7 +295,7 @@ impl<'a> Session<'a> {
 
     /// Whether memory holds what a scene needs, now.
     fn fits(&self, scene: &Scene) -> Result<(), Fault> {
-        check_memory(scene, (self.limits.free_bytes)()).map(drop).map_err(|e| Fault::of_memory(&e))
+        check_memory(scene, (self.machine.free_bytes)()).map(drop).map_err(|e| Fault::of_memory(&e))
     }
 
     fn solved(&self, text: &str, subject: &Subject, interest: Interest<'_>) -> Result<Option<Solved>, Fault> {
@@ -289,14 +303,17 @@ impl<'a> Session<'a> {
             Subject::Pair(scene) => scene,
             Subject::Gearbox(file) => {
                 file.meshes.iter().try_for_each(|mesh| self.fits(&mesh.scene))?;
-                return gearbox::solved(text, file, &self.gears).map(|solved| Some(Solved::Gearbox(Box::new(solved))));
+                let start = (self.machine.clock_ms)();
+                let mut solved = gearbox::solved(text, file, &self.gears)?;
+                solved.solve_ms = (self.machine.clock_ms)() - start;
+                return Ok(Some(Solved::Gearbox(Box::new(solved))));
             }
         };
         self.fits(scene)?;
-        let start = Instant::now();
+        let start = (self.machine.clock_ms)();
         match self.at_rest(scene, interest) {
             Ok(SolvedAtRest { scene, history, .. }) => {
-                Ok(Some(Solved::Pair(Box::new((scene, history, 1e3 * start.elapsed().as_secs_f64())))))
+                Ok(Some(Solved::Pair(Box::new((scene, history, (self.machine.clock_ms)() - start)))))
             }
             Err(AnalysisError::Cancelled) => Ok(None),
             Err(e) => Err(Fault::of_analysis(text, &e)),

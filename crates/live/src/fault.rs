@@ -9,7 +9,7 @@ use crate::scene_text::keys_of;
 
 /// What is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct Fault {
+pub struct Fault {
     /// One line: what, where, what was expected.
     pub message: String,
     /// The line of the scene that is meant, with a mark below it.
@@ -27,25 +27,25 @@ impl Fault {
     }
 
     /// Beside a key.
-    pub fn about(self, key: &str) -> Self {
+    pub(crate) fn about(self, key: &str) -> Self {
         Self { keys: vec![key.to_owned()], ..self }
     }
 
     /// Fault of the scene of a text.
-    pub fn of_scene(text: &str, error: &SceneError) -> Self {
+    pub(crate) fn of_scene(text: &str, error: &SceneError) -> Self {
         let excerpt = error.excerpt().map(str::to_owned);
         Self { message: error.to_string(), excerpt, hint: error.hint(), keys: keys_of(text, error) }
     }
 
     /// Fault of the analysis of the scene of a text.
-    pub fn of_analysis(text: &str, error: &AnalysisError) -> Self {
+    pub(crate) fn of_analysis(text: &str, error: &AnalysisError) -> Self {
         let keys = if let AnalysisError::Scene(error) = error.what() { keys_of(text, error) } else { Vec::new() };
         let excerpt = error.excerpt().map(str::to_owned);
         Self { message: error.to_string(), excerpt, hint: error.hint(), keys }
     }
 
     /// Fault of a scene that asks for more than memory holds.
-    pub fn of_memory(error: &MemoryDemandError) -> Self {
+    pub(crate) fn of_memory(error: &MemoryDemandError) -> Self {
         let excerpt = error.excerpt.clone();
         Self { message: error.to_string(), excerpt, hint: Some(error.hint()), keys: Vec::new() }
     }
