@@ -22,8 +22,17 @@ const SOLVER: &str = include_str!("page/solver.js");
 pub enum Answers<'a> {
     /// What serves it; the number of the page is told with every move, scripts and style are files beside it.
     Server(u64),
-    /// The page itself, one file: the program that solves, gzip in base64, with the exports of crate `browser`.
-    Page(&'a str),
+    /// The page itself, which is one file.
+    Page(Program<'a>),
+}
+
+/// The program that answers in a browser: crate `browser`.
+#[derive(Debug, Clone, Copy)]
+pub struct Program<'a> {
+    /// Script that calls it: `wasm_bindgen({ module_or_path })` loads it, `wasm_bindgen.answer(text)` answers a move.
+    pub calls: &'a str,
+    /// WebAssembly, gzip, base64.
+    pub code: &'a str,
 }
 
 /// The page of a scene's text.
@@ -35,9 +44,9 @@ pub fn html((text, file): (&str, &Path), answers: Answers<'_>) -> Result<String,
     let is_gearbox = Document::new(text.to_owned(), Path::new("")).base_kind() == Some(DocumentKind::Gearbox);
     let (number, inline) = match answers {
         Answers::Server(number) => (number, Value::from(())),
-        Answers::Page(program) => {
+        Answers::Page(Program { calls, code }) => {
             let scripts = [scripts::UPLOT, scripts::CHARTS, scripts::THREE, scripts::VIEW, SOLVER, SCRIPT];
-            (0, context! { style => style(), scripts => scripts, program => program })
+            (0, context! { style => style(), scripts => scripts, calls => calls, code => code })
         }
     };
     let context = context! {

@@ -10,7 +10,7 @@ pub(super) struct CacheArgs {
     /// Folder of reduced gears [default: the user's cache folder]
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
-    /// Neither read nor write reduced gears
+    /// Do not read or write the folder of reduced gears
     #[arg(long, conflicts_with = "cache")]
     no_cache: bool,
 }

@@ -21,11 +21,11 @@ use crate::{certificate::Written, error::CommandError, gearbox, output::ResultDi
 #[derive(Debug, Default, clap::Args)]
 #[command(next_help_heading = "Reports of single cases")]
 pub(super) struct CaseReports {
-    /// A whole result, as `ale-gear run` writes it, of the N best cases (least first output), or of `all`; linked in the
-    /// report
+    /// Write a full result, as `ale-gear run` does, for the N best cases (smallest first output) or for `all`, linked
+    /// in the report
     #[arg(long, value_name = "N|all", value_parser = how_many)]
     reports: Option<usize>,
-    /// A whole result of each of these cases, by their numbers with commas between
+    /// Write a full result for each of these cases, comma-separated numbers
     #[arg(long, value_name = "CASES", value_delimiter = ',')]
     report_case: Vec<usize>,
 }

@@ -18,24 +18,25 @@ use crate::{chart::chart, error::CommandError, memory, output::ResultDirectory, 
 pub(super) struct ChartArgs {
     /// Scene file
     scene: PathBuf,
-    /// Folder for chart and tables; it appears when they are complete
+    /// Folder for chart and tables, created when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
     overrides: Overrides,
-    /// Methods of integration of a scene in time instead: error against step and wall time
+    /// Chart integration methods of a motion instead: error against step size and wall time
     #[arg(long, conflicts_with = "motion")]
     methods: bool,
-    /// Models in motion over the speeds of `[motion.sweep]` instead: error of the resonance curve against wall time
+    /// Chart models in motion over the speeds of `[motion.sweep]` instead: error of the resonance curve against wall
+    /// time
     #[arg(long, conflicts_with_all = ["motion", "methods"])]
     resonance: bool,
-    /// Coarse meshes and few positions, or steps that are not small: less than a minute
+    /// Use coarse meshes and few positions or steps: less than a minute
     #[arg(long)]
     quick: bool,
     /// Run the models in motion at the scene's torque and speed as well
     #[arg(long)]
     motion: bool,
-    /// Leave out what would take longer than this, by what the coarser mesh took
+    /// Skip what would take longer than this, judged by the coarser mesh
     #[arg(long, value_name = "S", default_value = "240")]
     limit_s: f64,
     /// Replace the tables between `<!-- chart NAME -->` and `<!-- end -->` in this Markdown file, NAME being the

@@ -19,16 +19,16 @@ use crate::{error::CommandError, output::ResultDirectory, talk};
 /// Words of `ale-gear compare`.
 #[derive(Debug, clap::Args)]
 pub(super) struct CompareArgs {
-    /// Result folders; the first is what the others are compared with
+    /// Result folders; the others are compared with the first
     #[arg(required = true, num_args = 2.., value_name = "DIR")]
     folders: Vec<PathBuf>,
     /// Folder for report.html, compare.csv, compare_curves.csv and one SVG for each quantity
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What curves are drawn over [default: time if all runs are motions, else phase]
+    /// Abscissa of the curves [default: time if all runs are motions, else phase]
     #[arg(long, requires = "out")]
     over: Option<Over>,
-    /// Numbers and differences as JSON on stdout, instead of the table
+    /// Print numbers and differences as JSON instead of the table
     #[arg(long)]
     json: bool,
 }

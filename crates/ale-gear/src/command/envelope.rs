@@ -10,16 +10,16 @@ use crate::{command::Answer, error::CommandError, output::ResultDirectory, phase
 /// Words of `ale-gear envelope`.
 #[derive(Debug, clap::Args)]
 pub(super) struct EnvelopeArgs {
-    /// Folder for envelope.csv, maps.csv and report.html; it appears when they are complete
+    /// Folder for envelope.csv, maps.csv and report.html, created when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// These alone, with commas between: failure modes (F7) and maps (c) [default: all failure modes]
+    /// Only these failure modes (F7) and maps (c), comma-separated [default: all failure modes]
     #[arg(long, value_delimiter = ',', value_name = "CASES", conflicts_with = "quick")]
     only: Vec<String>,
-    /// Draw all maps as well: some ten minutes
+    /// Draw all maps as well, which takes some ten minutes
     #[arg(long)]
     maps: bool,
-    /// Failure modes that take a few seconds alone
+    /// Run only failure modes that take a few seconds
     #[arg(long)]
     quick: bool,
     /// Replace the tables between `<!-- chart failure modes -->`, `<!-- chart maps -->` and `<!-- end -->` in this file

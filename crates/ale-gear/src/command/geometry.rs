@@ -12,12 +12,12 @@ use crate::error::CommandError;
 /// Words of `ale-gear geometry`.
 #[derive(Debug, clap::Args)]
 pub(super) struct GeometryArgs {
-    /// Scene file; meshes are not looked at
+    /// Scene file; its meshes are not read
     scene: PathBuf,
-    /// As JSON, with the names of `summary.json`
+    /// Print JSON with the names of `summary.json`
     #[arg(long)]
     json: bool,
-    /// Write the pair as a REXS file (1.4, XML) as well, for other programs
+    /// Also write the pair as a REXS file (1.4, XML)
     #[arg(long, value_name = "FILE")]
     rexs: Option<PathBuf>,
     #[command(flatten)]

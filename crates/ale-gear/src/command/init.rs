@@ -26,25 +26,25 @@ use crate::{
 /// Without any of them, and with somebody at a terminal, it asks.
 #[derive(Debug, Default, clap::Args)]
 pub(super) struct InitArgs {
-    /// File to write [default: scene.toml, of a whole gearbox gearbox.toml]; `-` is stdout
+    /// File to write [default: scene.toml, for a gearbox gearbox.toml]; `-` is stdout
     file: Option<PathBuf>,
     #[command(flatten)]
     pair: PairArgs,
-    /// Take a REXS file (XML): a gearbox file with the scenes of its pairs where stages are on shafts, else the first pair;
-    /// the words on the pair go before it
+    /// Import a REXS file (XML): as a gearbox with the scenes of its pairs if stages are on shafts, else its first
+    /// pair; options of the pair override it
     #[arg(long, value_name = "FILE")]
     rexs: Option<PathBuf>,
-    /// Write the gearbox file of the pair in this scene, with its friction, bodies, bearings and motion where a gearbox
-    /// file can say them: shafts are held where no bearing frees them, to add bearings and shafts to
+    /// Convert the pair of this scene to a gearbox file with its friction, bodies, bearings and motion as far as a
+    /// gearbox file can state them; shafts without bearings are held
     #[arg(long, value_name = "SCENE", conflicts_with_all = ["rexs", "PairArgs"])]
     of_pair: Option<PathBuf>,
-    /// Take a cylindrical stage of the REXS file alone, as a pair
+    /// Import only this cylindrical stage of the REXS file, as a pair
     #[arg(long, value_name = "N", requires = "rexs")]
     stage: Option<usize>,
     /// Load case of the REXS file's load spectrum [default: 1]
     #[arg(long, value_name = "N", requires = "rexs")]
     load_case: Option<usize>,
-    /// Replace files that are there
+    /// Overwrite existing files
     #[arg(long)]
     force: bool,
 }
@@ -56,8 +56,8 @@ struct PairArgs {
     /// Title of the case [default: from the teeth]
     #[arg(long)]
     name: Option<String>,
-    /// Numbers of teeth of pinion and wheel, the wheel's negative if internal; three numbers, sun, planet and ring, are a
-    /// planetary stage, of which the other words say sun and planet [default: 30,30]
+    /// Numbers of teeth of pinion and wheel, negative for an internal wheel; three numbers (sun, planet, ring) for a
+    /// planetary stage, whose other options describe sun and planet [default: 30,30]
     #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     teeth: Vec<i32>,
     /// Normal module [default: 3]
@@ -66,10 +66,11 @@ struct PairArgs {
     /// The pinion's helix angle, right hand positive [default: 20]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     helix_deg: Option<f64>,
-    /// Face width of both gears [default: 20; of a stage 20/3 modules]
+    /// Face width of both gears [default: 20; for a stage 20/3 modules]
     #[arg(long, value_name = "MM")]
     face_width_mm: Option<f64>,
-    /// Torque on the driven gear [default: 150; of a stage, on its driven member, 1000 at module 3, with the cube of the module]
+    /// Torque on the driven gear [default: 150; for a stage 1000 on its driven member at module 3, scaled with the cube
+    /// of the module]
     #[arg(long, value_name = "NM")]
     torque_nm: Option<f64>,
     /// Speed of the driver [default: 1000]
@@ -78,7 +79,7 @@ struct PairArgs {
     /// Profile shift coefficients of pinion and wheel [default: 0,0]
     #[arg(long, value_name = "X1,X2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     profile_shift: Vec<f64>,
-    /// Working centre distance [default: the one that follows from the profile shifts]
+    /// Working centre distance [default: from the profile shifts]
     #[arg(long, value_name = "MM")]
     centre_distance_mm: Option<f64>,
     /// Equilibrium at every position, or motion in time [default: static]
@@ -87,7 +88,7 @@ struct PairArgs {
     /// Number of planets of a planetary stage [default: 3]
     #[arg(long, value_name = "N")]
     planets: Option<usize>,
-    /// What of a planetary stage stands in space; the torque is that on the member that is left [default: ring]
+    /// Fixed member of a planetary stage; the torque acts on the remaining one [default: ring]
     #[arg(long)]
     held: Option<HeldWord>,
 }

@@ -15,7 +15,7 @@ pub(super) struct MeasuredArgs {
     /// tooth, pitch errors, deviations and waves into `--out`
     #[arg(long, value_name = "GEAR=FILE", requires = "out", conflicts_with = "json")]
     measured: Option<String>,
-    /// Folder for the files of `--measured`, made where it is not there
+    /// Folder for the files of `--measured`; created if missing
     #[arg(long, value_name = "DIR", requires = "measured")]
     out: Option<PathBuf>,
 }

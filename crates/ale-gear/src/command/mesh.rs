@@ -20,7 +20,7 @@ use crate::{error::CommandError, meshes, scene::Scene};
 /// Subcommands of `ale-gear mesh`.
 #[derive(Debug, Subcommand)]
 pub(super) enum MeshCommand {
-    /// What a mesh file holds: elements, nodes, extent, groups
+    /// Print elements, nodes, extent and groups of a mesh file
     Info {
         /// Gmsh file, format 2.2 or 4.1, text or binary
         file: PathBuf,
@@ -28,14 +28,14 @@ pub(super) enum MeshCommand {
         #[arg(long)]
         json: bool,
     },
-    /// What is wrong with a mesh file; exit status 2 if it cannot be used
+    /// Report problems of a mesh file; exit status 2 if it cannot be used
     Check {
         /// Gmsh file, format 2.2 or 4.1, text or binary
         file: PathBuf,
         /// Number of teeth of the whole gear, for the periodic faces of a sector
         #[arg(long, value_name = "Z")]
         teeth: Option<u32>,
-        /// Scene whose gear it is to be: what a run would refuse is refused, with the names of the scene's `groups`
+        /// Scene that will use the mesh: everything a run would refuse is reported, with the group names of the scene
         #[arg(long, requires = "gear", conflicts_with_all = ["teeth", "bore", "flank_left", "flank_right", "cut_0", "cut_1"])]
         scene: Option<PathBuf>,
         /// Which gear of the scene
@@ -47,9 +47,9 @@ pub(super) enum MeshCommand {
         #[arg(long)]
         json: bool,
     },
-    /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
+    /// Reduce the gears of a scene into the cache, or the gear of a mesh file, and report time and memory
     Reduce(ReduceArgs),
-    /// Write the mesh that the built-in mesher makes of a scene's gear
+    /// Write the built-in mesh of a scene's gear
     Generate {
         /// Scene file
         scene: PathBuf,

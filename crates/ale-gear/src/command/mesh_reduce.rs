@@ -35,7 +35,7 @@ pub(super) struct ReduceArgs {
     overrides: Overrides,
     #[command(flatten)]
     of_mesh: MeshArgs,
-    /// Rows and phases as JSON on stdout
+    /// Print rows and phases as JSON
     #[arg(long)]
     json: bool,
 }

@@ -38,8 +38,8 @@ use crate::{
 
 /// Reduced finite-element contact of helical gears
 ///
-/// Without a subcommand it runs the default pair, which is in the program with its meshes, into out/default.
-/// Exit status: 0 solved, 1 no result or a failed check, 2 wrong input, 3 less exact than asked.
+/// Without a subcommand it runs the built-in default pair into out/default. Exit status: 0 solved, 1 no result or a
+/// failed check, 2 wrong input, 3 less accurate than requested.
 #[derive(Debug, Parser)]
 #[command(name = "ale-gear", version)]
 pub struct Cli {
@@ -51,15 +51,15 @@ pub struct Cli {
 
 /// Words that every subcommand knows.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Everywhere")]
+#[command(next_help_heading = "Global options")]
 struct Everywhere {
-    /// Say nothing but errors, and what was asked for on stdout
+    /// Print only errors and the requested output
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say on stderr what is being done; twice: what is found on the way as well
+    /// Report progress on stderr; given twice, report intermediate findings as well
     #[arg(long, short, global = true, action = ArgAction::Count)]
     verbose: u8,
-    /// Threads [default: all cores]
+    /// Number of threads [default: all cores]
     #[arg(long, short = 'j', global = true, value_name = "N")]
     threads: Option<usize>,
 }
@@ -68,30 +68,30 @@ struct Everywhere {
 enum Command {
     /// Run a document: the scene of a pair, a gearbox file, a plan, a study or an optimisation
     Run(run::RunArgs),
-    /// Run a scene with some of its keys varied, by list, range or sample: each value alone, or from the last one's state
+    /// Vary keys of a scene by list, range or sample, each case alone or continued from the last one
     Vary(vary::VaryArgs),
-    /// Search the micro-geometry that is quietest, within bounds and limits
+    /// Find the quietest micro-geometry within bounds and limits
     Optimise(optimise::OptimiseArgs),
-    /// Run every model and mesh density on a scene: accuracy against cost
+    /// Chart accuracy against cost of every model and mesh density
     Chart(chart::ChartArgs),
-    /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
+    /// Run known failure modes of such solvers, naive and robust, and map where methods fail
     Envelope(envelope::EnvelopeArgs),
-    /// Put the files of `ale-gear vary --cases` together
+    /// Merge the files of `ale-gear vary --cases`
     Merge(vary::MergeArgs),
-    /// Geometry sheet of a scene's pair on stdout: diameters, roll angles, span, balls, backlash, sliding
+    /// Print the geometry sheet of a pair: diameters, roll angles, span, balls, backlash, sliding
     Geometry(geometry::GeometryArgs),
-    /// Look at, check, make or reduce meshes
+    /// Inspect, check, generate or reduce meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
-    /// Result folders side by side: headline numbers with differences, curves over each other
+    /// Compare result folders: headline numbers, differences, curves
     Compare(compare::CompareArgs),
-    /// Make report.html of a result folder again, with the pages of this version
+    /// Rewrite report.html of a result folder with this version of the program
     Report(report::ReportArgs),
-    /// A page on this machine where a pair or a gearbox is tried by hand: sliders, curves, pattern, gears in space
+    /// Open a local page with sliders, curves, contact pattern and gears in space
     Serve(serve::ServeArgs),
-    /// Write a commented scene to begin with, from flags or from a few questions
+    /// Write a commented scene file from options or a few questions
     Init(init::InitArgs),
-    /// JSON Schema, completions of a shell, manual page or licences on stdout
+    /// Print the JSON Schema, shell completions, the manual page or licences
     #[command(subcommand)]
     Print(print::PrintCommand),
 }

@@ -29,25 +29,25 @@ fn tell(which: Evaluated, goal: Option<String>) {
 pub(super) struct OptimiseArgs {
     /// Optimisation file, or a scene file
     file: PathBuf,
-    /// Folder for the results; it appears when they are complete
+    /// Folder for the results, created when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// A key that may change within bounds, `KEY=FROM:TO`; the search begins at the scene's own value; may be given again
-    /// [default: tip reliefs, where they begin, lead crowning]
+    /// Key to change within bounds, `KEY=FROM:TO`, starting at the scene's value; repeatable [default: tip reliefs,
+    /// their starts, lead crowning]
     #[arg(long, value_name = "WORDS", allow_hyphen_values = true)]
     vary: Vec<String>,
-    /// Torques at which it counts, N m, with commas between; of a gearbox those of the first `[[torque]]`, others in
+    /// Torques to optimise for, N m, comma-separated; for a gearbox those of the first `[[torque]]`, others in
     /// proportion [default: the document's]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     torques: Vec<f64>,
-    /// A number of the headline that shall be small, of a pair or a gearbox, at rest or in time (`face_load_factor.0`), in
-    /// place of the transmission error; of several the mean of their absolute values
+    /// Number of the headline to minimise instead of the transmission error, e.g. `face_load_factor.0`; of several
+    /// numbers the mean absolute value
     #[arg(long, value_name = "KEY", conflicts_with_all = ["measure", "max_pressure", "max_edge_pressure", "front"])]
     goal: Vec<String>,
-    /// Limit of a number of the headline, with `--goal`; may be given again
+    /// Limit of a number of the headline, with `--goal`; repeatable
     #[arg(long, value_name = "KEY=MOST", requires = "goal")]
     limit: Vec<String>,
-    /// What shall be small: peak-to-peak, rms or harmonics (the first) [default: peak-to-peak]
+    /// Measure of the transmission error: peak-to-peak, rms or harmonics (the first) [default: peak-to-peak]
     #[arg(long, value_name = "NAME")]
     measure: Option<String>,
     /// Limit of the contact pressure, MPa
@@ -56,13 +56,13 @@ pub(super) struct OptimiseArgs {
     /// Limit of the contact pressure at end faces and tip edges, MPa
     #[arg(long, value_name = "MPA")]
     max_edge_pressure: Option<f64>,
-    /// Evaluations at the most [default: 20]
+    /// Maximum number of evaluations [default: 20]
     #[arg(long, value_name = "N")]
     evaluations: Option<u32>,
-    /// Points of the trade-off against a lower pressure [default: none]
+    /// Number of points of the trade-off against pressure [default: none]
     #[arg(long, value_name = "N")]
     front: Option<u32>,
-    /// The summary as JSON on stdout, instead of the closing table
+    /// Print the summary as JSON instead of the closing table
     #[arg(long)]
     json: bool,
     #[command(flatten)]

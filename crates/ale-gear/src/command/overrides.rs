@@ -13,13 +13,13 @@ pub(super) struct Overrides {
     /// What a plan sets itself: these words hold before it.
     #[arg(skip)]
     of_plan: Vec<Setting>,
-    /// Set a key of the file, as `operation.torque_nm=200` or `gear.0.position_mm=50`; may be given again
+    /// Set a key of the file, e.g. `operation.torque_nm=200` or `gear.0.position_mm=50`; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE", help_heading = "Overrides")]
     set: Vec<String>,
     /// Torque on the driven gear: short for `--set operation.torque_nm=NM`
     #[arg(long, value_name = "NM", help_heading = "Overrides", allow_negative_numbers = true)]
     torque_nm: Option<f64>,
-    /// Take the cheapest model that is so exact, as `1%` of the mean STE or as `max_pressure=5%`; may be given again
+    /// Use the cheapest model within this error, e.g. `1%` of the mean STE or `max_pressure=5%`; repeatable
     #[arg(long, value_name = "[KEY=]AMOUNT", help_heading = "Overrides")]
     accuracy: Vec<String>,
 }

@@ -30,7 +30,7 @@ use crate::{
 pub(super) struct RunArgs {
     /// Scene of a pair, gearbox file, plan, study or optimisation
     file: PathBuf,
-    /// Only this case of a plan, with a whole result of its own
+    /// Run only this case of a plan, with its full result
     #[arg(long, value_name = "N")]
     case: Option<usize>,
     /// Whether it is the scene of the program instead.
@@ -39,30 +39,30 @@ pub(super) struct RunArgs {
     /// Whether what the document says of many runs is left out: words say it instead.
     #[arg(skip)]
     one_run: bool,
-    /// Folder for the results; it appears when they are complete
+    /// Folder for the results, created when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
     cache: CacheArgs,
     #[command(flatten)]
     overrides: Overrides,
-    /// The summary as JSON on stdout, instead of the closing table
+    /// Print the summary as JSON instead of the closing table
     #[arg(long)]
     json: bool,
-    /// Differentiate the history of a pair at rest by these keys, with commas between, as
+    /// Differentiate the history of a pair at rest with respect to these keys, comma-separated, e.g.
     /// `pinion.modification.tip_relief_um`
     #[arg(long, value_name = "KEYS", value_delimiter = ',', help_heading = "Overrides")]
     derivatives: Vec<String>,
-    /// Write ParaView files, whatever the scene says
+    /// Write ParaView files even if the scene does not ask for them
     #[arg(long, help_heading = "Overrides")]
     vtu: bool,
-    /// Show contact bands alone on the gears in space, and save the time of their fields (pairs at rest)
+    /// Draw only contact bands on the gears in space, which is faster (pairs at rest)
     #[arg(long)]
     no_view: bool,
-    /// Go on from the last checkpoint of a run into the same folder (motions)
+    /// Continue from the last checkpoint in the folder (motions)
     #[arg(long, help_heading = "Checkpoints")]
     resume: bool,
-    /// Stop after so many mesh cycles in all and leave a checkpoint (motions)
+    /// Stop after this many mesh cycles in total and keep a checkpoint (motions)
     #[arg(long, value_name = "N", help_heading = "Checkpoints", value_parser = clap::value_parser!(u64).range(1..))]
     stop_after_cycles: Option<u64>,
 }

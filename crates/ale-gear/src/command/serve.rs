@@ -20,12 +20,12 @@ use crate::{
 /// Words of `ale-gear serve`.
 #[derive(Debug, clap::Args)]
 pub(super) struct ServeArgs {
-    /// Scene or gearbox file to begin with [default: the default pair on meshes of the built-in mesher]
+    /// Scene or gearbox file to start with [default: the default pair on built-in meshes]
     scene: Option<PathBuf>,
     /// Port of 127.0.0.1 [default: a free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
-    /// Print the address, and open no browser
+    /// Print the address without opening a browser
     #[arg(long)]
     no_browser: bool,
     #[command(flatten)]

@@ -2,29 +2,25 @@
 "use strict";
 window.solver = (() => {
   const inside = () => {
-    let exports = null;
     const begun = async packed => {
-      const unpacked = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
-      const page = { clock_ms: () => performance.now() };
-      exports = (await WebAssembly.instantiate(await unpacked.arrayBuffer(), { page })).instance.exports;
+      const code = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
+      await wasm_bindgen({ module_or_path: await code.arrayBuffer() });
     };
     let ready = null;
     onmessage = async ({ data }) => {
       if (data instanceof Uint8Array) { ready = begun(data); return; }
       try {
         await ready;
-        const words = new TextEncoder().encode(data), at = exports.room(words.length);
-        new Uint8Array(exports.memory.buffer, at, words.length).set(words);
-        const length = exports.answer();
-        postMessage({ text: new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.answered(), length)) });
+        postMessage({ text: wasm_bindgen.answer(data) });
       } catch (error) {
         postMessage({ error: String(error) });
       }
     };
   };
-  const packed = Uint8Array.from(atob(document.getElementById("program").textContent.trim()), letter => letter.charCodeAt(0));
+  const text = name => document.getElementById(name).textContent;
+  const packed = Uint8Array.from(atob(text("code").trim()), letter => letter.charCodeAt(0));
   const begin = () => {
-    const worker = new Worker(URL.createObjectURL(new Blob([`(${inside})()`], { type: "text/javascript" })));
+    const worker = new Worker(URL.createObjectURL(new Blob([text("calls"), `\n(${inside})()`], { type: "text/javascript" })));
     worker.postMessage(packed);
     worker.onmessage = ({ data }) => {
       const { done, failed } = current;

@@ -183,7 +183,8 @@ pub fn compare_page(
     page.push(Part::new("Inputs that differ").closing().grid(Grid::new(head).rows(words)));
     let cell = |text: String| Cell { is_number: true, ..Cell::text(text) };
     let rows = numbers.iter().map(|row| {
-        let mut cells = vec![Cell::text(&row.key), cell(number(row.values[0]))];
+        let key = row.key.replace('[', ".").replace(']', "");
+        let mut cells = vec![Cell::text(label_of(&key)), cell(number(row.values[0]))];
         for (value, difference) in row.values.iter().skip(1).zip(&row.differences) {
             let absolute = number(difference.map(|d| d.absolute));
             cells.extend([number(*value), absolute, per_cent(*difference)].map(cell));

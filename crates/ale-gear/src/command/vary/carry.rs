@@ -20,19 +20,19 @@ use crate::{
 #[derive(Debug, Default, clap::Args)]
 #[command(next_help_heading = "Motions that carry on (`--start carry`)")]
 pub(super) struct SectionArgs {
-    /// Which way values are gone through: up and down go on from the last one, apart begins each at rest [default: up,down]
+    /// Order of the values: up and down continue from the last one, apart starts each at rest [default: up,down]
     #[arg(long, value_enum, value_delimiter = ',')]
     ways: Vec<Way>,
-    /// How often the section of a motion has a point [default: mesh-cycle]
+    /// Interval between points of a section [default: mesh-cycle]
     #[arg(long, value_enum)]
     once: Option<Once>,
-    /// Points of a section [default: 64]
+    /// Number of points of a section [default: 64]
     #[arg(long, value_name = "N")]
     cycles: Option<u32>,
-    /// Mesh cycles before it, at the most [default: the scene's `warm_up_cycles`, or 400]
+    /// Maximum number of mesh cycles before the section [default: the scene's `warm_up_cycles`, or 400]
     #[arg(long, value_name = "N")]
     settle: Option<u32>,
-    /// Mesh cycles over which the largest Lyapunov exponent is found; 0: it is not [default: 200, impact: 0]
+    /// Mesh cycles for the largest Lyapunov exponent; 0 omits it [default: 200, impact: 0]
     #[arg(long, value_name = "N")]
     lyapunov: Option<u32>,
 }

@@ -32,31 +32,31 @@ use crate::error::CommandError;
 /// Words of `ale-gear vary`.
 #[derive(Debug, clap::Args)]
 pub(super) struct VaryArgs {
-    /// Plan or study file; or a scene file, with `--vary` and `--output`, or `--harris`
+    /// Plan or study file; or a scene file with `--vary` and `--output`, or with `--harris`
     file: PathBuf,
-    /// Folder for the results; it appears when they are complete. With `--cases` the file for their rows
+    /// Folder for the results, created when they are complete; with `--cases` the file for their rows
     #[arg(long, short, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
     /// A key and its values: `KEY=1,2,5`, `KEY=0:40:9` (nine), `KEY=1:100:9:log`, `KEY~0:40` (drawn), `KEY~normal:0:5`,
     /// `KEY~iso1328:6` (a tolerance class), `KEY=0:40` (any between, with `--start branch`); several keys with the same
-    /// value: `KEY+KEY=1,2,5`; may be given again
+    /// value: `KEY+KEY=1,2,5`; repeatable
     #[arg(long, value_name = "WORDS", allow_hyphen_values = true)]
     vary: Vec<String>,
     /// The plan that says what is varied, where no words do
     #[arg(skip)]
     plan_file: Option<PathBuf>,
-    /// How the next value starts
+    /// Start of each case
     #[arg(long, value_enum, default_value_t = Start::Each)]
     start: Start,
-    /// A number of the headline of `summary.json` that is wanted; may be given again
+    /// Output: a number of the headline of `summary.json`; repeatable
     #[arg(long, value_name = "KEY")]
     output: Vec<String>,
     /// Column of `history.csv`: of cases its mean, peak to peak, least and largest value are wanted, of motions that carry
     /// on its section is taken [default of those: dte_um]
     #[arg(long, value_name = "COLUMN")]
     of: Option<String>,
-    /// Harris map: peak-to-peak STE over the torque, from a tenth of the scene's to 1.4 times it; a curve for each value
-    /// of what `--vary` names beside
+    /// Harris map: peak-to-peak STE over torque, from 0.1 to 1.4 times the scene's, one curve for each value of
+    /// `--vary`
     #[arg(long)]
     harris: bool,
     #[command(flatten)]
@@ -67,7 +67,7 @@ pub(super) struct VaryArgs {
     part: part::PartArgs,
     #[command(flatten)]
     reports: CaseReports,
-    /// The summary as JSON on stdout, instead of the closing table
+    /// Print the summary as JSON instead of the closing table
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -79,14 +79,14 @@ pub(super) struct VaryArgs {
 /// How a value starts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
 enum Start {
-    /// Each alone: a row of wanted numbers a case
+    /// Each alone: one row of outputs per case
     #[default]
     Each,
-    /// A motion from the state of the last value's, up and down: bifurcation diagrams
+    /// Motions continued from the last value, up and down: bifurcation diagrams
     Carry,
-    /// A periodic motion from its neighbours, around folds: resonance curves with their unstable parts
+    /// Periodic motions continued around folds: resonance curves with their unstable parts
     Branch,
-    /// A motion from each state of a plane: `start_um` and `start_mm_s` are varied
+    /// One motion from each state of a plane: `start_um` and `start_mm_s` are varied
     Basin,
 }
 
@@ -94,13 +94,13 @@ enum Start {
 #[derive(Debug, Default, clap::Args)]
 #[command(next_help_heading = "What is drawn")]
 struct DrawnArgs {
-    /// How samples are spread: latin-hypercube, sobol or random [default: latin-hypercube]
+    /// Sampling design: latin-hypercube, sobol or random [default: latin-hypercube]
     #[arg(long, value_name = "NAME")]
     design: Option<String>,
-    /// How many samples [default: 100]
+    /// Number of samples [default: 100]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
-    /// Other samples for another seed [default: 1]
+    /// Seed of the samples [default: 1]
     #[arg(long, value_name = "N")]
     seed: Option<u32>,
 }

@@ -13,8 +13,8 @@ use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
 #[derive(Debug, Default, clap::Args)]
 #[command(next_help_heading = "Many machines")]
 pub(super) struct PartArgs {
-    /// Only these cases of a plan, from the first to before the last: `0..100`; those beyond the plan are none. Their
-    /// rows go into the file `--out`, which is left alone where it has them already
+    /// Only these cases of a plan, e.g. `0..100` (the end is excluded; cases beyond the plan are skipped). Their rows
+    /// go into the file `--out`, which is kept if it has them already
     #[arg(long, value_name = "FROM..TO", value_parser = range)]
     cases: Option<Range<usize>>,
     /// Solve nothing, but say on stdout which ranges of so many cases the plan has
@@ -43,7 +43,7 @@ pub(in crate::command) struct MergeArgs {
     /// Files of `ale-gear vary --cases` that together have all cases
     #[arg(required = true)]
     parts: Vec<PathBuf>,
-    /// Folder for the results; it appears when they are complete
+    /// Folder for the results, created when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
 }
