@@ -67,7 +67,7 @@ pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answ
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
     let done = DoneCases::in_memory(CaseLines::of(plan), Default::default());
     let count = plan.cases.count();
-    let progress = watch.begin("cases", PhaseWork::Steps(count as u64));
+    let progress = watch.open("cases", PhaseWork::Steps(count as u64));
     let beside = watch.beside();
     solve_cases((plan, 0..count), held.models, &|| Box::new(beside.beside()), &done, &*progress)?;
     watch.end();
@@ -82,14 +82,14 @@ pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answ
 pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let progress = watch.begin("search", PhaseWork::Steps(u64::from(plan.evaluations)));
+    let progress = watch.open("search", PhaseWork::Steps(u64::from(plan.evaluations)));
     let found = optimise(held.models, plan, |which, goal| {
         progress.tick();
         progress.say(goal.map_or_else(|| which.to_string(), |goal| format!("{goal:.4} um")));
         if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     watch.end();
-    watch.begin("tell", PhaseWork::Unknown);
+    watch.open("tell", PhaseWork::Unknown);
     let summary = summarise(held.models, &found)?;
     watch.end();
     let scene = found.plan.own_scene(&found.values).map_err(AnalysisError::from)?.standing_alone();
@@ -106,7 +106,7 @@ pub fn number_optimum(plan: &NumberOptimisation, again: &str, held: Held<'_>, wa
         .map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint.clone())))?;
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let progress = watch.begin("search", PhaseWork::Steps(u64::from(plan.evaluations)));
+    let progress = watch.open("search", PhaseWork::Steps(u64::from(plan.evaluations)));
     let lines = CaseLines::new(plan.parameters.len(), plan.outputs().len());
     let (done, beside) = (DoneCases::in_memory(lines, Default::default()), watch.beside());
     let found = optimise_numbers(plan, held.models, &|| Box::new(beside.beside()), &done, |which, goal| {

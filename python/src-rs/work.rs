@@ -84,6 +84,14 @@ impl Watch {
         Self::new(Arc::new(Shared { told: Mutex::default(), cancelled: Arc::clone(&self.shared.cancelled) }))
     }
 
+    /// Begins a phase; what it tells may outlive it.
+    pub fn open(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress> {
+        let all = if let PhaseWork::Steps(steps) = work { Some(steps) } else { None };
+        *self.shared.told() = Told { phase: phase.to_owned(), done: 0, all, message: String::new() };
+        self.open.push((phase.to_owned(), Instant::now()));
+        Arc::clone(&self.shared) as Arc<dyn Progress>
+    }
+
     /// When the work began.
     pub fn start(&self) -> Instant {
         self.start
@@ -92,10 +100,7 @@ impl Watch {
 
 impl Observer for Watch {
     fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress> {
-        let all = if let PhaseWork::Steps(steps) = work { Some(steps) } else { None };
-        *self.shared.told() = Told { phase: phase.to_owned(), done: 0, all, message: String::new() };
-        self.open.push((phase.to_owned(), Instant::now()));
-        Arc::clone(&self.shared) as Arc<dyn Progress>
+        self.open(phase, work)
     }
 
     fn end(&mut self) {

@@ -44,7 +44,7 @@ pub fn unless_cancelled(progress: &dyn Progress) -> Result<(), AnalysisError> {
 /// Receives the phases of an analysis, one after the other.
 pub trait Observer {
     /// Called when a phase begins.
-    fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress>;
+    fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress + '_>;
 
     /// Called when the last phase ends.
     fn end(&mut self);
@@ -84,8 +84,7 @@ pub fn run_phase<T>(
     work: PhaseWork,
     task: impl FnOnce(&dyn Progress) -> T,
 ) -> T {
-    let progress = observer.begin(phase, work);
-    let done = task(&*progress);
+    let done = task(&*observer.begin(phase, work));
     observer.end();
     done
 }

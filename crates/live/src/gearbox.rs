@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use analysis::{
-    AnalysisError, Context, GearCache, NoObserver,
+    AnalysisError, Context, GearCache, Interest,
     gearbox::{GearboxResult, MeshResult},
     solve,
 };
@@ -25,11 +25,16 @@ pub(crate) struct SolvedGearbox {
     left_out: Option<String>,
 }
 
-/// Solves a gearbox at rest on the gears that are kept.
+/// Solves a gearbox at rest on the gears that are kept; `None` where nobody waits for it any more.
 ///
 /// # Errors
 /// What is wrong with it, or why it has no equilibrium.
-pub(crate) fn solved(text: &str, file: &Gearbox, cache: &dyn GearCache) -> Result<SolvedGearbox, Fault> {
+pub(crate) fn solved(
+    text: &str,
+    file: &Gearbox,
+    cache: &dyn GearCache,
+    mut interest: Interest<'_>,
+) -> Result<Option<SolvedGearbox>, Fault> {
     let mut at_rest = file.clone();
     let tasks = [
         ("[vibration]", at_rest.vibration.take().is_some()),
@@ -40,9 +45,12 @@ pub(crate) fn solved(text: &str, file: &Gearbox, cache: &dyn GearCache) -> Resul
     let left_out = (!asked.is_empty())
         .then(|| format!("this page shows the gearbox at rest; `ale-gear run` takes {} as well", asked.join(", ")));
     let answered =
-        solve(&at_rest, Context::new(&mut NoObserver).with_cache(cache)).and_then(|ending| ending.finished());
-    let result = answered.map_err(|e: AnalysisError| Fault::of_analysis(text, &e))?;
-    Ok(SolvedGearbox { file: at_rest, result, solve_ms: 0.0, left_out })
+        solve(&at_rest, Context::new(&mut interest).with_cache(cache)).and_then(|ending| ending.finished());
+    match answered {
+        Ok(result) => Ok(Some(SolvedGearbox { file: at_rest, result, solve_ms: 0.0, left_out })),
+        Err(AnalysisError::Cancelled) => Ok(None),
+        Err(e) => Err(Fault::of_analysis(text, &e)),
+    }
 }
 
 /// All keys of the scenes of its meshes, defaults filled in.

@@ -304,9 +304,9 @@ impl<'a> Session<'a> {
             Subject::Gearbox(file) => {
                 file.meshes.iter().try_for_each(|mesh| self.fits(&mesh.scene))?;
                 let start = (self.machine.clock_ms)();
-                let mut solved = gearbox::solved(text, file, &self.gears)?;
-                solved.solve_ms = (self.machine.clock_ms)() - start;
-                return Ok(Some(Solved::Gearbox(Box::new(solved))));
+                let solved = gearbox::solved(text, file, &self.gears, interest)?;
+                let solve_ms = (self.machine.clock_ms)() - start;
+                return Ok(solved.map(|own| Solved::Gearbox(Box::new(SolvedGearbox { solve_ms, ..own }))));
             }
         };
         self.fits(scene)?;
