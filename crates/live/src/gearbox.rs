@@ -20,7 +20,7 @@ use crate::{fault::Fault, outcome::Outcome, scene_text::flat};
 pub(crate) struct SolvedGearbox {
     file: Gearbox,
     result: GearboxResult,
-    pub solve_ms: f64,
+    solve_ms: f64,
     /// What the document asks for beside rest, in words.
     left_out: Option<String>,
 }
@@ -44,8 +44,7 @@ pub(crate) fn solved(
     let asked: Vec<&str> = tasks.into_iter().filter_map(|(table, is_there)| is_there.then_some(table)).collect();
     let left_out = (!asked.is_empty())
         .then(|| format!("this page shows the gearbox at rest; `ale-gear run` takes {} as well", asked.join(", ")));
-    let answered =
-        solve(&at_rest, Context::new(&mut interest).with_cache(cache)).and_then(|ending| ending.finished());
+    let answered = solve(&at_rest, Context::new(&mut interest).with_cache(cache)).and_then(|ending| ending.finished());
     match answered {
         Ok(result) => Ok(Some(SolvedGearbox { file: at_rest, result, solve_ms: 0.0, left_out })),
         Err(AnalysisError::Cancelled) => Ok(None),
@@ -62,6 +61,11 @@ pub(crate) fn effective(file: &Gearbox) -> BTreeMap<String, String> {
 }
 
 impl SolvedGearbox {
+    /// With the time that its solution took, ms.
+    pub fn within(self, solve_ms: f64) -> Self {
+        Self { solve_ms, ..self }
+    }
+
     /// What is shown of it.
     pub fn outcome(&self) -> Outcome<'_> {
         let Self { file, result, solve_ms, left_out } = self;

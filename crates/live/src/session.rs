@@ -306,7 +306,7 @@ impl<'a> Session<'a> {
                 let start = (self.machine.clock_ms)();
                 let solved = gearbox::solved(text, file, &self.gears, interest)?;
                 let solve_ms = (self.machine.clock_ms)() - start;
-                return Ok(solved.map(|own| Solved::Gearbox(Box::new(SolvedGearbox { solve_ms, ..own }))));
+                return Ok(solved.map(|solved| Solved::Gearbox(Box::new(solved.within(solve_ms)))));
             }
         };
         self.fits(scene)?;
