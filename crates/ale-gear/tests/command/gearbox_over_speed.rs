@@ -101,7 +101,7 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     assert!(scratch.read("again.html") == page, "the page made again has other bytes");
     let beside = scratch.ale_gear(["compare", "o", "o"]);
     assert_eq!(beside.code, Some(0), "{}", beside.stderr);
-    assert!(beside.stdout.contains("peak_to_peak_ste_um[1]"), "{}", beside.stdout);
+    assert!(beside.stdout.contains("peak to peak STE 2 [µm]"), "{}", beside.stdout);
     let wrong = scratch.read("run_up.toml").replace("to_speed_rpm", "drive = \"torque\"\nto_speed_rpm");
     let scratch = scratch.file("wrong.toml", wrong);
     let run = scratch.ale_gear(["run", "wrong.toml", "--out", "w"]);

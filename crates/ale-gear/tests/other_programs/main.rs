@@ -20,7 +20,15 @@ fn main() -> ExitCode {
     let ccx = testing::program("ccx", "-v");
     let [parquet, meshes, fields, schema, universal] =
         ["pyarrow.parquet", "meshio, gmsh", "meshio, pyvista", "jsonschema, tomllib", "pyuff"].map(testing::python);
-    Suite::new(file!())
+    let suite = Suite::new(file!());
+    // `packaging/browser.sh` names the page that it has made.
+    let suite = match std::env::var_os("ALE_GEAR_PAGE") {
+        Some(file) => {
+            suite.needing(&browser, "a_page_solves_by_itself", move |browser| page::by_itself(browser, file.as_ref()))
+        }
+        None => suite,
+    };
+    suite
         .always("a_machine_without_programs_has_its_tests_left_out_by_name", left_out_by_name)
         .needing(&browser, "a_static_report_shows_charts_pattern_and_gears_with_fields", browser::static_report)
         .needing(&browser, "a_motion_is_shown_with_its_quasi_static_fields", browser::motion)

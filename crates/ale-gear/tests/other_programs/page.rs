@@ -62,6 +62,26 @@ fn opened(browser: &Path, flags: &[&str], scratch: &Scratch) -> (Serving, Tab) {
     (serving, tab)
 }
 
+/// A file that solves in the browser: the numbers of the program, before and after a move.
+pub fn by_itself(browser: PathBuf, file: &Path) {
+    let scratch = Scratch::new();
+    let mut tab = Tab::open(&browser, &[&FLAGS[..], &[WITHOUT_GL]].concat(), &scratch);
+    tab.window([1400, 1000], false);
+    tab.call("Page.navigate", json!({ "url": format!("file://{}", file.display()) }));
+    tab.ask("new Promise(done => { const look = () => window.page ? done(1) : setTimeout(look, 20); look(); })");
+    tab.ask(SETTLED);
+    slide(&mut tab, "operation.torque_nm", 0.3);
+    assert_eq!(tab.ask("document.getElementById('fault').hidden"), true);
+    let shown = tab.ask("document.getElementById('glance').textContent");
+    let scratch = scratch.file("moved.toml", handed_out(&mut tab));
+    let run = scratch.ale_gear(["run", "moved.toml", "--out", "o", "--no-view"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let headline: Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let mean = headline["headline"]["mean_ste_um"].as_f64().unwrap();
+    assert!(shown.as_str().unwrap().contains(&format!("mean STE{mean:.2}")), "{mean} beside {shown}");
+    assert!(tab.complaints.is_empty(), "{:#?}", tab.complaints);
+}
+
 /// Waits until what is moved is shown.
 const SETTLED: &str = "new Promise(done => { const look = () => { \
     const { moves, drawn } = window.page, last = drawn.at(-1); \

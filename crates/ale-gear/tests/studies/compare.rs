@@ -28,7 +28,7 @@ fn runs_of_all_kinds_stand_side_by_side() {
     let run = scratch.ale_gear(["compare", "a", "b"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     // ISO's stiffness is linear: twice the torque is twice the error.
-    let line = run.stdout.lines().find(|l| l.trim_start().starts_with("mean_ste_um")).unwrap();
+    let line = run.stdout.lines().find(|l| l.trim_start().starts_with("mean STE [µm]")).unwrap();
     assert!(line.trim_end().ends_with("+100.000"), "{line}");
     let input = run.stdout.lines().find(|l| l.trim_start().starts_with("operation.torque_nm")).unwrap();
     assert_eq!(input.split_whitespace().collect::<Vec<_>>(), ["operation.torque_nm", "150.0", "300.0"]);

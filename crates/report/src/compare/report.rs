@@ -157,6 +157,19 @@ pub fn compare_answer(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[Wo
     }
 }
 
+/// A key of a headline in words; entries of its lists count from 1 on: `peak_to_peak_ste_um[0]` is `peak to peak STE 1 [µm]`.
+fn name_of(key: &str) -> String {
+    let part = |part: &str| match part.split_once('[') {
+        Some((name, rest)) => {
+            let indices = rest.trim_end_matches(']').split("][");
+            let counted = indices.map(|i| i.parse::<usize>().map_or_else(|_| i.to_owned(), |i| (i + 1).to_string()));
+            std::iter::once(name.to_owned()).chain(counted).collect::<Vec<_>>().join(".")
+        }
+        None => part.to_owned(),
+    };
+    label_of(&key.split('.').map(part).collect::<Vec<_>>().join("."))
+}
+
 /// The page.
 pub fn compare_page(
     answer: &Answer,
@@ -183,8 +196,7 @@ pub fn compare_page(
     page.push(Part::new("Inputs that differ").closing().grid(Grid::new(head).rows(words)));
     let cell = |text: String| Cell { is_number: true, ..Cell::text(text) };
     let rows = numbers.iter().map(|row| {
-        let key = row.key.replace('[', ".").replace(']', "");
-        let mut cells = vec![Cell::text(label_of(&key)), cell(number(row.values[0]))];
+        let mut cells = vec![Cell::text(name_of(&row.key)), cell(number(row.values[0]))];
         for (value, difference) in row.values.iter().skip(1).zip(&row.differences) {
             let absolute = number(difference.map(|d| d.absolute));
             cells.extend([number(*value), absolute, per_cent(*difference)].map(cell));
