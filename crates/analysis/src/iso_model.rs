@@ -174,6 +174,7 @@ fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> Stat
             geometric_line_length: line.length,
             points_in_contact: 1,
             slices: Vec::new(),
+            gap_rates: Vec::new(),
         });
     }
     pairs.sort_by_key(|p| p.pair);

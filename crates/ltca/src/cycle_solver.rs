@@ -119,6 +119,7 @@ impl CycleSolver {
                     geometric_line_length: nominal,
                     points_in_contact: 0,
                     slices: Vec::new(),
+                    gap_rates: Vec::new(),
                 }
             })
             .collect();

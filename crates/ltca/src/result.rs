@@ -27,6 +27,9 @@ pub struct PairResult {
     pub points_in_contact: usize,
     /// The loaded slices, ascending in z; empty for contact of points.
     pub slices: Vec<SliceResult>,
+    /// Derivative of the transmission error by the gap of each of these slices; empty if not requested
+    /// ([`crate::StaticOptions::gap_rates`]), and where there is none.
+    pub gap_rates: Vec<f64>,
 }
 
 /// Residuals of a solved position.

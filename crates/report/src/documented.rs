@@ -2,6 +2,7 @@
 
 use analysis::{
     accuracy_chart::{Density, ResonanceCurve, ResonancePrecision, WorkPrecision},
+    flank_orders::FlankOrders,
     lumped::{LumpedCampbell, LumpedQuantity, SweepOptions},
     motion::{CampbellDiagram, MotionPrecision, MotionSpectrum, OrderCut, RunUp, Waterfall},
     parameter_study::{Findings, Follower},
@@ -35,8 +36,11 @@ use crate::{
 /// [`SceneError`] when `scene` is no pair.
 pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String, Table)>, SceneError> {
     let pair = scene.gear_pair()?;
+    let [orders, shares] = contact_files::flank_orders(&FlankOrders::default());
     let of_pair = of_motions().into_iter().chain([
         contact_files::contact_lines(scene, &pair, &StaticHistory::default()),
+        orders,
+        shares,
         contact_files::of_places("contact_pattern_pinion", &[]),
         study_files::documented(&study(), &findings()),
         plan_files::documented(),
