@@ -10,9 +10,7 @@ use geometry::{
 use ltca::{PairResult, StaticHistory, StaticPosition};
 use metrology::{GearHeader, MeasuredGear, Ripple, Trace, TraceKind};
 use scene::Scene;
-use study::{Harmonic, mesh_harmonics};
-
-use crate::{AnalysisError, refused::Refusal};
+use study::{Harmonic, StudyError, mesh_harmonics};
 
 /// Waves that are looked for on the flanks of a gear, and the least amplitude, um.
 const WAVES: usize = 10;
@@ -89,18 +87,16 @@ impl FlankOrders {
     /// and the half-widths a_i of the solution. Theory (26a), (77).
     ///
     /// # Errors
-    /// [`AnalysisError::Refused`] where no driving flank has a deviation of its own, or a position has no rates.
-    pub fn of(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<Self, AnalysisError> {
+    /// The errors of [`mesh_harmonics`]. Without topographies and pitch errors there is nothing to tell: scenes that ask for
+    /// it are refused.
+    pub fn of(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<Self, StudyError> {
         let side = scene.side();
         let slice = scene.contact.slices.map_or(0.0, |n| pair.face_width() / f64::from(n.max(1)));
         let mut parts: Vec<(usize, FlankPart, Vec<f64>)> = Vec::new();
         let mut waves: [Vec<Ripple>; 2] = Default::default();
         for (gear, own) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
-            let deviations = Deviations::of(own, side, slice)?;
-            if deviations.flanks.is_empty() {
-                continue;
-            }
-            waves[gear] = deviations.waves()?;
+            let Some(deviations) = Deviations::of(own, side, slice) else { continue };
+            waves[gear] = deviations.waves();
             for wave in &waves[gear] {
                 let depth = |tooth: u32, at: [f64; 2]| deviations.wave_um(wave, tooth, at);
                 parts.push((gear, FlankPart::Wave(wave.order), over(history, (gear, side, own.base_radius()), &depth)));
@@ -111,8 +107,7 @@ impl FlankOrders {
             }
         }
         if parts.is_empty() {
-            let what = "`flank_orders` needs flanks or teeth that deviate: no gear has a topography or pitch errors";
-            return Err(Refusal::input(what, "name a `topography`, or leave `flank_orders` out").into());
+            return Ok(Self::default());
         }
         Self::of_parts(scene, history, &parts, &waves)
     }
@@ -122,11 +117,9 @@ impl FlankOrders {
         history: &StaticHistory,
         parts: &[(usize, FlankPart, Vec<f64>)],
         waves: &[Vec<Ripple>; 2],
-    ) -> Result<Self, AnalysisError> {
+    ) -> Result<Self, StudyError> {
         let all = |of: fn(&StaticPosition) -> f64| -> Vec<f64> { history.positions.iter().map(of).collect() };
-        let lines = |samples: &[f64]| -> Result<Vec<Harmonic>, AnalysisError> {
-            Ok(mesh_harmonics(samples, 1, samples.len() / 2)?)
-        };
+        let lines = |samples: &[f64]| mesh_harmonics(samples, 1, samples.len() / 2);
         let ste = lines(&all(|p| 1e3 * p.transmission_error))?;
         let kinematic = lines(&all(|p| 1e3 * p.kinematic_transmission_error))?;
         let mut sum = vec![0.0; history.positions.len()];
@@ -203,22 +196,22 @@ fn over(
 struct Deviations<'a> {
     gear: &'a Gear,
     side: Side,
-    /// The flank of each tooth; empty where neither is there.
+    /// The flank of each tooth.
     flanks: Vec<ModifiedFlank>,
     topography: Option<&'a Topography>,
 }
 
 impl<'a> Deviations<'a> {
-    /// `slice`: axial length over which a topography counts by its mean, mm.
-    fn of(gear: &'a Gear, side: Side, slice: f64) -> Result<Self, AnalysisError> {
+    /// `slice`: axial length over which a topography counts by its mean, mm; `None` where nothing deviates.
+    fn of(gear: &'a Gear, side: Side, slice: f64) -> Option<Self> {
         let topography = gear.modifications().on(side).topography.as_ref();
+        if topography.is_none() && gear.modifications().pitch_errors.is_empty() {
+            return None;
+        }
         let alone = FlankModification { topography: topography.cloned(), ..FlankModification::default() };
-        let bare = gear.clone().with_modifications(GearModifications::both(alone));
-        let bare = bare.map_err(|e| Refusal::input(e.to_string(), e.hint().unwrap_or_default()))?;
-        let deviates = topography.is_some() || !gear.modifications().pitch_errors.is_empty();
-        let teeth = if deviates { gear.teeth() } else { 0 };
-        let flanks = (0..teeth).map(|tooth| bare.modified_flank(side, i64::from(tooth)).split(slice)).collect();
-        Ok(Self { gear, side, flanks, topography })
+        let bare = gear.clone().with_modifications(GearModifications::both(alone)).ok()?;
+        let flank = |tooth: u32| bare.modified_flank(side, i64::from(tooth)).split(slice);
+        Some(Self { gear, side, flanks: (0..gear.teeth()).map(flank).collect(), topography })
     }
 
     /// Depth of a tooth, um.
@@ -234,8 +227,8 @@ impl<'a> Deviations<'a> {
     }
 
     /// Waves of all teeth along their profiles at mid-face, where a topography has lines.
-    fn waves(&self) -> Result<Vec<Ripple>, AnalysisError> {
-        let Some(topography) = self.topography else { return Ok(Vec::new()) };
+    fn waves(&self) -> Vec<Ripple> {
+        let Some(topography) = self.topography else { return Vec::new() };
         let (gear, base) = (self.gear, self.gear.base_radius());
         let profile = gear.profile();
         let mut range = [profile.roll_form(), profile.roll_tip()];
@@ -271,7 +264,7 @@ impl<'a> Deviations<'a> {
         };
         let measured = MeasuredGear { header, traces: (0..gear.teeth()).map(trace).collect(), pitch: Vec::new() };
         let orders = gear.teeth() / 2..=HARMONICS * gear.teeth();
-        let found = metrology::ripple(&measured, self.side, orders, WAVES, LEAST_UM);
-        found.map_err(|e| Refusal::input(e.to_string(), "give the topography more lines along the profile").into())
+        // A topography beside the flank has none.
+        metrology::ripple(&measured, self.side, orders, WAVES, LEAST_UM).unwrap_or_default()
     }
 }

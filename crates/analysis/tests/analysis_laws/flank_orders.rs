@@ -79,7 +79,7 @@ fn shares_are_what_a_run_without_them_lacks() {
     let wave = |tooth: u32, u: f64| 0.3 * (GHOST * (u - TAU * f64::from(tooth) / f64::from(TEETH)) + 0.7).cos();
     let slope = |tooth: u32, u: f64| 0.8 * f64::from(tooth * tooth).sin() * (u - 0.38) / 0.1;
     let file = |name: &str, of: &dyn Fn(u32, f64) -> f64| topography(folder.path(), name, of);
-    for torque in [60.0, 300.0] {
+    for torque in [300.0, 60.0].into_iter().take(testing::cases(1, 2)) {
         let (with, whole) = solved(&file("with.csv", &|k, u| wave(k, u) + slope(k, u)), torque);
         let (_, less_wave) = solved(&file("less.csv", &|k, u| slope(k, u)), torque);
         let (_, less_tooth) =
