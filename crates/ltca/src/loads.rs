@@ -69,6 +69,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
         root_stress: Default::default(),
+        root_fields: Default::default(),
         friction_work: over_rows(&|row| friction_work(pair, &options.contact, &e.poses, row)),
         sliding_work: over_rows(&|row| sliding_distance(pair, &e.poses, row)),
         strain_energy: elastic + local + penalty,

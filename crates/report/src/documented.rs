@@ -10,7 +10,7 @@ use analysis::{
 use answer::{Checks, Cost, Phase, Remark, Table};
 use columns::derivative_columns;
 use described::Key;
-use ltca::StaticHistory;
+use ltca::{RootPattern, StaticHistory};
 use scene::{
     Scene, SceneError, SteadyBy, SweepScene,
     gearbox::Gearbox,
@@ -24,7 +24,7 @@ use crate::{
     answer_files::{Object, Summary},
     branch_files::{self, ShownBranch},
     compare, contact_files, gearbox_files, optimum_files,
-    pair_files::{key_rows, rows},
+    pair_files::{key_rows, rating, rows},
     plan_files, study_files,
 };
 
@@ -42,6 +42,7 @@ pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String
         orders,
         shares,
         contact_files::of_places("contact_pattern_pinion", &[]),
+        rating::of_root("root_pattern_pinion", &RootPattern::default()),
         study_files::documented(&study(), &findings()),
         plan_files::documented(),
     ]);

@@ -56,6 +56,9 @@ pub fn write_static_result(
         tables.extend(rating::with_safeties(write_patterns(scene, &patterns, results)?, headline.rating.as_ref()));
         pattern = pattern_figure(&patterns);
     }
+    if let Some(roots) = &history.roots {
+        tables.extend(rating::root_patterns(roots, headline.rating.as_ref()));
+    }
     let answer = pair_answer(scene, (facts, cost), &headline, &history.remarks, tables);
     let mut after = after(&headline, facts, pattern);
     after.extend(headline.rating.iter().flat_map(|rating| rating::parts(rating, None)));
