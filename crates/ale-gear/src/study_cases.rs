@@ -61,7 +61,8 @@ fn miss(error: CommandError, has_folder: bool) -> CaseMiss {
 /// Whether a case is solved on models that others share: at rest, without files of its own beside its rows.
 fn shares(scene: &Scene) -> bool {
     let output = &scene.output;
-    let files = output.vtu || output.contact_lines || output.parquet || !output.derivatives.is_empty();
+    let files =
+        output.vtu || output.contact_lines || output.flank_orders || output.parquet || !output.derivatives.is_empty();
     scene.analysis.kind == Kind::Static && scene.accuracy.is_none() && !files
 }
 

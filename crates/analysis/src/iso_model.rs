@@ -174,6 +174,7 @@ fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> Stat
             geometric_line_length: line.length,
             points_in_contact: 1,
             slices: Vec::new(),
+            gap_rates: Vec::new(),
         });
     }
     pairs.sort_by_key(|p| p.pair);
@@ -191,6 +192,7 @@ fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> Stat
         pairs,
         wrench,
         root_stress: Default::default(),
+        root_fields: Default::default(),
         friction_work: 0.0,
         sliding_work,
         strain_energy: 0.5 * base_force * transmission_error,

@@ -42,6 +42,7 @@ mod estimated_time;
 pub mod facts;
 mod failure;
 mod flank_checks;
+pub mod flank_orders;
 mod flank_reach;
 mod gear_dofs;
 pub mod gearbox;

@@ -14,6 +14,7 @@ pub fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     StaticOptions {
         window: scene.analysis.window_teeth.map(|w| w as usize),
         root_stress: scene.output.root_stress,
+        gap_rates: scene.output.flank_orders,
         ..defaults
     }
     .with_contact(|c| {

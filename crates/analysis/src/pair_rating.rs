@@ -7,8 +7,8 @@ use rating::{
     ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LoadBin, LocalDamage,
     LocalScuffing, Lubrication, LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry,
     RatedSpectrum, RatingError, RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact,
-    Spectrum, SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, permissible_film,
-    scuffing_rating, standard_rating,
+    Spectrum, SpectrumRating, StandardMicropitting, StandardRating, local_bending_safety, local_pitting_safety,
+    scuffing_rating, standard_micropitting, standard_rating,
 };
 use scene::{LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
@@ -68,6 +68,9 @@ described::described! {
         /// micropitting by the solved contact; missing without `micropitting`
         #[serde(skip_serializing_if = "Option::is_none")]
         pub micropitting: Option<MicropittingRating>,
+        /// micropitting by the standard, method B; missing without `micropitting` and from a transverse contact ratio of 2 on
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub standard_micropitting: Option<StandardMicropitting>,
         /// losses of the mesh by the friction of the oil; missing without `oil_temperature_c` and for models without slices
         #[serde(skip_serializing_if = "Option::is_none")]
         pub mesh_loss: Option<MeshLoss>,
@@ -86,6 +89,7 @@ struct Oiled {
     scuffing: Option<ScuffingRating>,
     local: Option<(LocalScuffing, ContactField)>,
     micropitting: Option<(MicropittingRating, FilmField)>,
+    standard_micropitting: Option<StandardMicropitting>,
     loss: Option<MeshLoss>,
 }
 
@@ -176,6 +180,7 @@ impl RatingHeadline {
             scuffing: oiled.scuffing,
             local_scuffing: oiled.local.as_ref().map(|(local, _)| *local),
             micropitting: oiled.micropitting.as_ref().map(|(rating, _)| *rating),
+            standard_micropitting: oiled.standard_micropitting,
             mesh_loss: oiled.loss,
             contact_field: oiled.local.map(|(_, field)| field),
             film_field: oiled.micropitting.map(|(_, field)| field),
@@ -211,6 +216,17 @@ impl RatingHeadline {
             let sums = [("pitting", damage.pitting_damage), ("tooth root breakage", damage.bending_damage)];
             let high = sums.into_iter().filter(|(_, sum)| *sum > 1.0);
             all.extend(high.map(|(failure, sum)| crate::remark::spectrum_fails(name, failure, sum)));
+        }
+        if let Some(local) = &headline.local_spectrum {
+            let roots = local.bending_damage.zip(local.bending_damage_at);
+            for (k, name) in NAMES.into_iter().enumerate() {
+                let flank = Some(("pitting", local.pitting_damage[k], local.pitting_damage_at[k]));
+                let root = roots.map(|(sums, at)| ("tooth root breakage", sums[k], at[k]));
+                let high = flank.into_iter().chain(root).filter(|(_, sum, _)| *sum > 1.0);
+                all.extend(high.map(|(failure, sum, at)| {
+                    crate::remark::local_spectrum_fails(name, failure, sum, at.diameter_mm, at.z_mm)
+                }));
+            }
         }
         all
     }
@@ -349,11 +365,11 @@ fn oiled(
     let scuffing = rating.scuffing.then(|| scuffing_rating(&input)).transpose()?;
     let (material, permissible) = (rating.material_factor, rating.permissible_specific_film_thickness);
     let material = material.unwrap_or(f64::NAN);
-    if rating.micropitting {
-        permissible_film(pair.lubricant, material, permissible)?;
-        input.thermal_contact()?;
-    }
-    let Some(solved) = solved else { return Ok(Oiled { scuffing, ..Oiled::default() }) };
+    let standard_micropitting = match rating.micropitting {
+        true => standard_micropitting(&input, material, permissible)?,
+        false => None,
+    };
+    let Some(solved) = solved else { return Ok(Oiled { scuffing, standard_micropitting, ..Oiled::default() }) };
     let rolling = Rolling::new(&pair.geometry, pair.pinion_speed_rpm);
     let turning = scene.pinion_speed().abs() * [1.0, 1.0 / pair.geometry.ratio().abs()][input.driver];
     let power_w = 1e-3 * turning * solved.moments[input.driver] / solved.positions.max(1) as f64;
@@ -361,7 +377,7 @@ fn oiled(
     let solved = SolvedContact::new(input.lubrication.clone(), rolling, places, solved.positions, power_w);
     let local = if rating.scuffing { solved.scuffing(&input)? } else { None };
     let micropitting = if rating.micropitting { solved.micropitting(&input, material, permissible)? } else { None };
-    Ok(Oiled { scuffing, local, micropitting, loss: solved.loss() })
+    Ok(Oiled { scuffing, local, micropitting, standard_micropitting, loss: solved.loss() })
 }
 
 /// The numbers of a pair that ratings need.

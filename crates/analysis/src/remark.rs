@@ -105,6 +105,9 @@ answer::remarks! {
         "the {gear} does not hold: its safety against {failure} is {safety:.3}", "";
     spectrum_fails(gear, failure, damage)
         "the {gear} does not outlive the load spectrum: Miner's sum of {failure} is {damage:.3}, above 1", "";
+    local_spectrum_fails(gear, failure, damage, diameter_mm, z_mm)
+        "the {gear} does not outlive the load spectrum by its solved stresses: Miner's sum of {failure} is {damage:.3} at a diameter of {diameter_mm:.3} mm, z {z_mm:.2} mm, above 1",
+        "at an edge or an end face add relief or crowning; elsewhere a larger face, a harder material or less load";
     no_iso_root_stress(reason) "no nominal root stress after ISO 6336-3: {reason}", "";
     iso_model(bending_um)
         "model \"iso\": stiffness after ISO 6336-1, load spread evenly over the contact lines, and {bending_um:.2} um by which the axial force bends the bodies, solid discs held at their bores; mean values are meant to hold within about 25 %, the shape over the mesh cycle is a rough guess",

@@ -5,7 +5,7 @@ use std::{collections::BTreeSet, ops::ControlFlow};
 use fem::Wanted;
 use gearbox::MeshState;
 use geometry::GearPair;
-use ltca::{LoadCycle, StaticHistory, StaticModel, StaticPosition};
+use ltca::{LoadCycle, RootPattern, StaticHistory, StaticModel, StaticPosition};
 use rating::{FlankPlace, LoadBin, LocalDamage, RatedLoad, RatedSpectrum, SolvedStress};
 use scene::{DataFile, Scene};
 use study::FlankPattern;
@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     plausible,
     refused::Refusal,
-    results::{diameter, face_load_factor, largest_tensions, mesh_tensions, patterns, pressed},
+    results::{diameter, face_load_factor, mesh_roots, patterns, pressed},
     run_phase, solver_error, static_certificate, unless_cancelled,
 };
 
@@ -55,7 +55,7 @@ pub(crate) fn under_loads(
                 return Err(AnalysisError::Cancelled.into());
             }
             verdict(&static_certificate(scene, &history.positions), scene).map_err(of_load)?;
-            Ok(LoadCycle { torque, positions: history.positions })
+            Ok(LoadCycle { torque, positions: history.positions, roots: history.roots })
         };
         torques.into_iter().map(one).collect()
     })
@@ -98,8 +98,8 @@ pub(crate) struct SolvedLoad {
     pub face_load_factor: Option<f64>,
     /// Largest pressures on the driving flanks of pinion and wheel; `None` where points touch.
     pub flanks: Option<[FlankPattern; 2]>,
-    /// Largest first principal stresses in the fillets, MPa; `None` where they are not computed.
-    pub root_tensions: Option<[f64; 2]>,
+    /// Largest tensions at the points of the fillets; `None` where they are not computed.
+    pub roots: Option<[RootPattern; 2]>,
 }
 
 impl SolvedLoad {
@@ -113,8 +113,9 @@ impl SolvedLoad {
         }
         let nominal = scene.operation.torque_nm;
         let share = |own: &LoadCycle| own.torque / scene.operation.torque();
-        let others = history.under_loads.iter().map(|own| (nominal * share(own), &own.positions));
-        std::iter::once((nominal, &history.positions)).chain(others).map(|own| Self::of(scene, pair, own)).collect()
+        let others = history.under_loads.iter().map(|own| (nominal * share(own), &own.positions, &own.roots));
+        let all = std::iter::once((nominal, &history.positions, &history.roots)).chain(others);
+        all.map(|own| Self::of(scene, pair, own)).collect()
     }
 
     /// Values for a mesh of a gearbox, whose slices are those of all its tooth pairs.
@@ -135,21 +136,21 @@ impl SolvedLoad {
             torque_nm,
             face_load_factor: ltca::face_load_factor(count, slices()),
             flanks,
-            root_tensions: mesh_tensions(meshes),
+            roots: mesh_roots(meshes, scene.side()),
         })
     }
 
     fn of(
         scene: &Scene,
         pair: &GearPair,
-        (torque_nm, positions): (f64, &Vec<StaticPosition>),
+        (torque_nm, positions, roots): (f64, &Vec<StaticPosition>, &Option<[RootPattern; 2]>),
     ) -> Result<Self, AnalysisError> {
         let flanks = scene.has_slices().then(|| patterns(scene, pair, positions)).transpose()?;
         Ok(Self {
             torque_nm,
             face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
             flanks: flanks.map(|both| both.map(|own| own.grid)),
-            root_tensions: largest_tensions(positions.iter().map(|p| &p.root_stress)),
+            roots: roots.clone(),
         })
     }
 
@@ -159,14 +160,20 @@ impl SolvedLoad {
         let stress = |own: &RatedLoad| {
             let solved = Self::under(all, &own.load)?;
             let pressures = solved.flanks.as_ref()?.each_ref().map(FlankPattern::max_pressure);
-            Some(SolvedStress { pressures, tensions: solved.root_tensions })
+            let tensions = solved.roots.as_ref().map(|both| both.each_ref().map(|own| &own.tension[..]));
+            Some(SolvedStress { pressures, tensions })
         };
         let under: Vec<SolvedStress<'_>> = spectrum.loads().iter().map(stress).collect::<Option<_>>()?;
         let grids = all.first()?.flanks.as_ref()?;
-        LocalDamage::new(spectrum, &under, |gear, cell| {
+        let flank = |gear: usize, cell: usize| {
             let (rolls, base) = (grids[gear].rolls(), [&pair.pinion, &pair.wheel][gear].base_radius());
             let diameter_mm = diameter(base, rolls[cell % rolls.len()]);
             FlankPlace { diameter_mm, z_mm: grids[gear].stations()[cell / rolls.len()] }
+        };
+        let roots = all.first()?.roots.as_ref();
+        LocalDamage::new(spectrum, &under, flank, |gear, point| {
+            let [radius, z_mm] = roots.map_or([f64::NAN; 2], |both| both[gear].places[point]);
+            FlankPlace { diameter_mm: 2.0 * radius, z_mm }
         })
     }
 

@@ -108,8 +108,6 @@ impl Waves {
         let (base, profile) = (gear.base_radius(), gear.profile());
         let [from, to] = [profile.roll_form(), profile.roll_tip()].map(|u| 0.5 * base * u * u);
         let step = (to - from) / places as f64;
-        let table: Vec<[f64; 2]> =
-            (0..places).map(|i| (TAU * i as f64 / places as f64).sin_cos()).map(|(sin, cos)| [cos, sin]).collect();
         let [mut whole, mut high, mut steep, mut bent] = [0.0; 4];
         let mut powers = vec![0.0; places / 2];
         for line in 0..HEIGHTS {
@@ -121,15 +119,10 @@ impl Waves {
             let mut values: Vec<f64> = (0..places).map(depth).collect();
             take_parabola_off(&mut values);
             // A window whose mean square is 1.
-            let window = |i: usize| (2.0f64 / 3.0).sqrt() * (1.0 - table[i][0]);
+            let window = |i: usize| (2.0f64 / 3.0).sqrt() * (1.0 - (TAU * i as f64 / places as f64).cos());
             values.iter_mut().enumerate().for_each(|(i, x)| *x *= window(i));
-            for (j, power) in powers.iter_mut().enumerate().skip(1) {
-                let sum = values.iter().enumerate().fold([0.0; 2], |[a, b], (i, x)| {
-                    let [cos, sin] = table[i * j % places];
-                    [a + x * cos, b + x * sin]
-                });
-                *power += 2.0 * (sum[0] * sum[0] + sum[1] * sum[1]) / (places * places) as f64;
-            }
+            let lines = study::mesh_harmonics(&values, 1, places / 2 - 1).ok()?;
+            powers.iter_mut().skip(1).zip(lines).for_each(|(power, line)| *power += 0.5 * line.amplitude.powi(2));
         }
         let wave_number = |j: usize| TAU * j as f64 / (to - from);
         let mut largest = (0.0, 0);

@@ -8,7 +8,7 @@ use geometry::GearPair;
 use reduction::ElasticGear;
 
 use crate::{
-    Equilibrium, FilletStress, RootStress, StaticError, StaticOptions, StaticPosition, ToothChange, WindowedPair,
+    Equilibrium, FilletField, RootStress, StaticError, StaticOptions, StaticPosition, ToothChange, WindowedPair,
     equilibrium::equilibrium, kinematic::Unloaded, loads,
 };
 
@@ -49,8 +49,8 @@ impl CycleSolver {
     pub fn solve(&mut self, inputs: &CycleInputs<'_>, station: Station) -> Result<StaticPosition, StaticError> {
         let CycleInputs { pair, gears, options, .. } = *inputs;
         if options.torque == 0.0 {
-            let root_stress = self.root_stress(inputs, None)?;
-            return Ok(StaticPosition { root_stress, ..self.unloaded(inputs, station)? });
+            let roots = self.root_stress(inputs, None)?;
+            return Ok(self.unloaded(inputs, station)?.with_roots(roots));
         }
         let guess = self.last.take();
         let Self { contact: WindowContact { set, slices }, window, .. } = self;
@@ -64,8 +64,8 @@ impl CycleSolver {
 
     /// Everything the results hold of a solved station.
     fn position(&self, inputs: &CycleInputs<'_>, e: &Equilibrium) -> Result<StaticPosition, StaticError> {
-        let root_stress = self.root_stress(inputs, Some(e))?;
-        Ok(StaticPosition { root_stress, ..loads::position(&self.windowed(inputs), e, self.changes) })
+        let roots = self.root_stress(inputs, Some(e))?;
+        Ok(loads::position(&self.windowed(inputs), e, self.changes).with_roots(roots))
     }
 
     /// Stress in the fillets of both windows, when it is asked for.
@@ -78,9 +78,9 @@ impl CycleSolver {
         &self,
         inputs: &CycleInputs<'_>,
         e: Option<&Equilibrium>,
-    ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+    ) -> Result<[Vec<FilletField>; 2], StaticError> {
         let Some(root) = inputs.root else { return Ok(Default::default()) };
-        root.of(&self.windowed(inputs), e.map(|e| e.loads_on(&self.contact.set)).as_ref())
+        root.fields(&self.windowed(inputs), e.map(|e| e.loads_on(&self.contact.set)).as_ref())
     }
 
     /// Refuses the window if a neighbouring pair outside it overlaps at the loaded pose.
@@ -119,6 +119,7 @@ impl CycleSolver {
                     geometric_line_length: nominal,
                     points_in_contact: 0,
                     slices: Vec::new(),
+                    gap_rates: Vec::new(),
                 }
             })
             .collect();
@@ -135,6 +136,7 @@ impl CycleSolver {
             pairs,
             wrench: Default::default(),
             root_stress: Default::default(),
+            root_fields: Default::default(),
             max_pressure: 0.0,
             friction_work: 0.0,
             sliding_work: 0.0,

@@ -36,7 +36,8 @@ pub use options::StaticOptions;
 pub use pose_steps::round_off_of_places;
 pub use result::{Certificate, LoadCycle, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};
 pub use root_stress::{
-    FilletField, FilletPlace, FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootStress, StressPeak,
+    FilletField, FilletPlace, FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootPattern, RootStress,
+    StressPeak,
 };
 pub use sensitivity::{PositionRates, Sensitivities, Sensitivity, Variation};
 pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed, slices_needed_on};

@@ -9,7 +9,7 @@ use contact::{
 
 use crate::{
     Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line,
-    pose_steps::round_off_of_places,
+    pose_steps::round_off_of_places, sensitivity::gap_rates,
 };
 
 /// Difference between the forces on the two gears, relative to the larger: action = reaction. Where rows rest on nodes
@@ -37,7 +37,9 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
     let wrench = wrenches(&e.poses, &e.rows, &e.solution.forces);
     // Torque is about the gear's own axis, which may be tilted.
     let torque = Vec3::from(wrench[driven].moment).dot(&(e.poses[driven].rotation * Vec3::z()));
-    let mut pairs: Vec<PairResult> = (0..window.count()).map(|k| pair_result(windowed, e, k)).collect();
+    let rates = if options.gap_rates { gap_rates(windowed, e) } else { None };
+    let mut pairs: Vec<PairResult> =
+        (0..window.count()).map(|k| pair_result(windowed, e, (k, rates.as_deref()))).collect();
     // Ascending in the sense of rotation, so that a mirrored pair has the mirrored pair's table.
     pairs.sort_by_key(|p| p.pair);
     let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
@@ -67,6 +69,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
         root_stress: Default::default(),
+        root_fields: Default::default(),
         friction_work: over_rows(&|row| friction_work(pair, &options.contact, &e.poses, row)),
         sliding_work: over_rows(&|row| sliding_distance(pair, &e.poses, row)),
         strain_energy: elastic + local + penalty,
@@ -100,7 +103,7 @@ fn bulk_error(windowed: &WindowedPair) -> f64 {
     tables.map_or(0.0, |both| both.iter().map(contact::BulkTable::error).fold(0.0, f64::max))
 }
 
-fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult {
+fn pair_result(windowed: &WindowedPair, e: &Equilibrium, (k, rates): (usize, Option<&[f64]>)) -> PairResult {
     let WindowedPair { pair, gears, set, window, options } = *windowed;
     let running = window.first() + k as i64;
     let [pinion_tooth, wheel_tooth] = window.teeth_of(running);
@@ -142,5 +145,9 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
         geometric_line_length: nominal.map_or(0.0, |line| line.length),
         points_in_contact: loaded.len(),
         slices,
+        gap_rates: rates.map_or(Vec::new(), |all| {
+            let own = e.rows.iter().zip(&e.solution.forces).zip(all);
+            own.filter(|((row, f), _)| **f > 0.0 && mine(row)).map(|(_, rate)| *rate).collect()
+        }),
     }
 }

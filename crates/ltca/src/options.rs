@@ -17,12 +17,21 @@ pub struct StaticOptions {
     pub root_stress: bool,
     /// Whether the ends of the loaded contact lines of slices are located. Otherwise the lengths are NaN.
     pub line_lengths: bool,
+    /// Whether the derivatives of the transmission error by the gap of each loaded slice are computed.
+    pub gap_rates: bool,
 }
 
 impl StaticOptions {
     /// Defaults for a torque (N mm) on the driven gear of `pair`; see [`ContactOptions::new`].
     pub fn new(torque: f64, pair: &GearPair) -> Self {
-        Self { contact: ContactOptions::new(pair), torque, window: None, root_stress: false, line_lengths: true }
+        Self {
+            contact: ContactOptions::new(pair),
+            torque,
+            window: None,
+            root_stress: false,
+            line_lengths: true,
+            gap_rates: false,
+        }
     }
 
     /// The same options with the contact options changed.

@@ -2,9 +2,10 @@
 
 use ale::{Station, ToothWindow};
 use contact::{Site, SliceResult, Wrench};
+use geometry::Side;
 use serde::Serialize;
 
-use crate::FilletStress;
+use crate::{FilletField, FilletStress, RootPattern};
 
 /// One tooth pair of the window at one position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,6 +28,9 @@ pub struct PairResult {
     pub points_in_contact: usize,
     /// The loaded slices, ascending in z; empty for contact of points.
     pub slices: Vec<SliceResult>,
+    /// Derivative of the transmission error by the gap of each of these slices; empty if not requested
+    /// ([`crate::StaticOptions::gap_rates`]), and where there is none.
+    pub gap_rates: Vec<f64>,
 }
 
 /// Residuals of a solved position.
@@ -84,6 +88,9 @@ pub struct StaticPosition {
     /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty if
     /// not requested.
     pub root_stress: [Vec<FilletStress>; 2],
+    /// The same fillets with the stress at all their points; a history keeps the largest alone ([`StaticHistory::roots`]).
+    #[serde(skip)]
+    pub root_fields: [Vec<FilletField>; 2],
     /// Friction work per radian of pinion rotation, N mm, >= 0. Multiplied by the pinion's speed it is the power loss.
     pub friction_work: f64,
     /// Normal force times sliding per radian of pinion rotation, summed over the contact, N mm: the friction work of
@@ -98,6 +105,12 @@ pub struct StaticPosition {
 }
 
 impl StaticPosition {
+    /// With stress in its fillets.
+    pub(crate) fn with_roots(self, root_fields: [Vec<FilletField>; 2]) -> Self {
+        let peaks = |all: &Vec<FilletField>| all.iter().map(|own| own.peaks).collect();
+        Self { root_stress: root_fields.each_ref().map(peaks), root_fields, ..self }
+    }
+
     /// Largest contact pressure of slices at end faces and tip edges, MPa; 0 if there are none, and for contact of
     /// points.
     pub fn max_edge_pressure(&self) -> f64 {
@@ -115,6 +128,9 @@ pub struct StaticHistory {
     pub tooth_changes: Vec<ToothChangeRecord>,
     /// Remarks for the user: neglected effects, doubtful results, adjusted inputs.
     pub remarks: Vec<answer::Remark>,
+    /// Largest tensions at the points of the loaded fillets of pinion and wheel, if root stress is requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roots: Option<[RootPattern; 2]>,
     /// The same mesh cycles under other torques, if requested for a load spectrum.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub under_loads: Vec<LoadCycle>,
@@ -127,6 +143,21 @@ pub struct LoadCycle {
     pub torque: f64,
     /// Positions in the order of the rotation.
     pub positions: Vec<StaticPosition>,
+    /// Largest tensions as in [`StaticHistory::roots`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roots: Option<[RootPattern; 2]>,
+}
+
+impl StaticHistory {
+    /// Adds a position, whose fillets loaded on `side` of the teeth go into [`StaticHistory::roots`].
+    pub(crate) fn push(&mut self, mut position: StaticPosition, side: Side) {
+        let fields = std::mem::take(&mut position.root_fields);
+        if fields.iter().any(|own| !own.is_empty()) {
+            let roots = self.roots.get_or_insert_default();
+            roots.iter_mut().zip(&fields).for_each(|(own, fields)| own.take(fields, side));
+        }
+        self.positions.push(position);
+    }
 }
 
 /// A tooth change: the same station solved with the windows before and after it.

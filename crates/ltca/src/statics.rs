@@ -261,7 +261,7 @@ impl StaticModel {
                 solver.resume(&inputs, state)?;
                 let i = history.positions.len();
                 let goes_on = seen(i, &position, self);
-                history.positions.push(position);
+                history.push(position, self.options.side());
                 if goes_on.is_break() {
                     return Ok(history);
                 }

@@ -48,6 +48,16 @@ pub enum MetrologyError {
         /// What the parser says.
         message: String,
     },
+    /// A map of names that lacks one, or has one that is not known.
+    #[error("{}:{line}: {message}", path.display())]
+    Names {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What the parser says.
+        message: String,
+    },
     /// A measured gear that is another one than the gear it is used for.
     #[error("the measured gear has {name} {measured}, the gear {own}")]
     OtherGear {
@@ -78,6 +88,9 @@ impl MetrologyError {
             }
             Self::Missing { .. } => Some("export header, ranges and curves into one file".into()),
             Self::Xml { .. } => None,
+            Self::Names { .. } => Some(
+                "keys: teeth, normal_module, helix_angle, pressure_angle, profiles, helices, tooth, first_tooth, side, left, right, place, from, to, values, undefined".into(),
+            ),
             Self::OtherGear { .. } => Some("is it the file of this gear?".into()),
             Self::Unusable { .. } => Some("measure profiles or helices on at least one tooth".into()),
             Self::Geometry(e) => e.hint(),

@@ -7,13 +7,15 @@ use std::path::Path;
 
 use geometry::Side;
 use roxmltree::{Document, Node};
+use serde::Deserialize;
 
 use crate::MetrologyError;
 use crate::measured_gear::{GearHeader, MeasuredGear, Trace, TraceKind};
 
 /// Names in a file. Each is a path of element names below the element before, with `/`, and `@name` for an attribute at
-/// its end: `GearData/Teeth`, `Trace/@tooth`.
-#[derive(Debug, Clone, PartialEq)]
+/// its end: `GearData/Teeth`, `Trace/@tooth`. As a file they are keys of TOML, [`GdeNames::parse`].
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct GdeNames {
     /// Number of teeth, from the root.
     pub teeth: String,
@@ -29,7 +31,8 @@ pub struct GdeNames {
     pub helices: String,
     /// Tooth, from a trace, and the number of the first tooth.
     pub tooth: String,
-    /// What the first tooth is called.
+    /// What the first tooth is called; 1 unless a file says otherwise.
+    #[serde(default = "one")]
     pub first_tooth: u32,
     /// Side, from a trace, and its words.
     pub side: String,
@@ -46,7 +49,28 @@ pub struct GdeNames {
     /// Values, um, from a trace: one text with blanks, commas or semicolons between, or as many elements.
     pub values: String,
     /// What stands for a value that is none, besides words that are no number of their own (`nan`, `-`).
+    #[serde(default)]
     pub undefined: Option<f64>,
+}
+
+fn one() -> u32 {
+    1
+}
+
+impl GdeNames {
+    /// Names of a file with the fields of [`GdeNames`] as keys; `path` is what messages name.
+    ///
+    /// # Errors
+    /// [`MetrologyError::Names`] with file, line and what is missing, unknown or of another kind.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, MetrologyError> {
+        toml::from_str(text).map_err(|e: toml::de::Error| MetrologyError::Names {
+            path: path.to_owned(),
+            line: e.span().map_or(1, |span| {
+                1 + text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count()
+            }),
+            message: e.message().to_owned(),
+        })
+    }
 }
 
 /// Reads the text of a file; `path` is what messages name. All profiles must have one range, and all helices.

@@ -76,6 +76,9 @@ pub(crate) fn numbers(
             // Nobody looks at these.
             (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
             scene.rating = scene.rating.filter(|_| outputs.iter().any(is_rating));
+            if let Some(rating) = scene.rating.as_mut().filter(|_| !outputs.iter().any(is_spectrum)) {
+                rating.spectrum = None;
+            }
             let context = Context::<Scene>::new(observer)
                 .with_models(models)
                 .with_remarks(RemarksAtRest::Skipped)
@@ -105,6 +108,12 @@ pub(crate) fn numbers(
 /// Whether a number is one of the rating of a pair.
 fn is_rating(output: &PlanOutput) -> bool {
     matches!(output, PlanOutput::Headline(key) if key.split('.').next() == Some("rating"))
+}
+
+/// Whether a number is of a load spectrum, each torque of which is solved by itself.
+fn is_spectrum(output: &PlanOutput) -> bool {
+    matches!(output, PlanOutput::Headline(key)
+        if matches!(key.split('.').nth(1), Some("spectrum" | "local_spectrum")))
 }
 
 /// Whether a number is told of lengths of contact lines under load.

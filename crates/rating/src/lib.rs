@@ -14,6 +14,7 @@
 //! | `lubrication`, `rolling`, `flash` | how warm and how oily are sliding flanks? |
 //! | `scuffing` | is the contact warmer than the oil bears? |
 //! | `film` | how thick is the oil film, and how thick has it to be? |
+//! | `micropitting` | is it, by the load sharing of the standard? |
 //! | `tribology` | friction, heat and film of the solved contact |
 //! | `local` | how safe is a point of the solved contact? |
 //! | `spectrum` | what do many loads do over a life? |
@@ -36,6 +37,7 @@ mod local_damage;
 mod lubricant;
 mod lubrication;
 mod material;
+mod micropitting;
 mod outside;
 mod pitting;
 mod rolling;
@@ -59,6 +61,7 @@ pub use local_damage::{FlankPlace, LocalDamage, SolvedStress};
 pub use lubricant::{Lubricant, LubricantBase, Lubricants};
 pub use lubrication::{Lubrication, LubricationMethod};
 pub use material::{Material, MaterialGroup, Materials};
+pub use micropitting::{StandardMicropitting, standard_micropitting};
 pub use outside::{Outside, micropitting_scope};
 pub use pitting::{FlankFactors, FlankSurface, PittingFactors, pitting_curve, pitting_factors};
 pub use rolling::{Rolling, RollingPlace};

@@ -236,19 +236,19 @@ pub fn scuffing_rating(input: &ScuffingInput<'_>) -> Result<ScuffingRating, Rati
 }
 
 /// The path of contact in the parameter Gamma = tan(alpha_y1)/tan(alpha_wt) - 1 of the standards.
-struct Path<'a> {
+pub(crate) struct Path<'a> {
     geometry: &'a PairGeometry,
     /// Gamma of A and E, the ends at the tips of wheel and pinion.
-    ends: [f64; 2],
+    pub ends: [f64; 2],
     /// Gamma of B and D, between which a single pair carries.
-    single: [f64; 2],
+    pub single: [f64; 2],
     /// eps_1 and eps_2, contact ratios of the addenda of pinion and wheel.
-    eps: [f64; 2],
+    pub eps: [f64; 2],
 }
 
 impl<'a> Path<'a> {
     /// The path of a pair whose flanks are curved all along it.
-    fn new(geometry: &'a PairGeometry) -> Result<Self, RatingError> {
+    pub fn new(geometry: &'a PairGeometry) -> Result<Self, RatingError> {
         let line = geometry.centre_distance * geometry.working_pressure_angle.sin();
         let [start, end] = geometry.path_of_contact;
         positive("the radius of curvature of the pinion at the start of the path of contact in mm", start, FLASH)?;
@@ -269,7 +269,7 @@ impl<'a> Path<'a> {
     /// X_but           1 + 0.3 eps_beta (1.3 at the most) at A and E, falling to 1 within 0.2 sin(beta_b)
     /// ```
     /// Source: ISO/TS 6336-20, load sharing factor and buttressing factor; tolerance class 7 and better.
-    fn load_share(&self, gamma: f64) -> f64 {
+    pub fn load_share(&self, gamma: f64) -> f64 {
         let ([a, e], [b, d]) = (self.ends, self.single);
         let eps_alpha = self.eps[0] + self.eps[1];
         let eps_beta = self.geometry.eps_beta;
@@ -288,7 +288,7 @@ impl<'a> Path<'a> {
     }
 
     /// Transverse radii of curvature at a place, mm, negative where the flank is hollow.
-    fn radii(&self, gamma: f64) -> [f64; 2] {
+    pub fn radii(&self, gamma: f64) -> [f64; 2] {
         let [one, two] = self.geometry.pitch_radii();
         [one * (1.0 + gamma), two * (1.0 - gamma / self.geometry.ratio())]
     }

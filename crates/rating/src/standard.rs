@@ -107,7 +107,7 @@ described::described! {
         pub contact_stress_limit_mpa: f64,
         /// S_H
         pub pitting_safety: f64,
-        /// life at which S_H is 1, the line of life drawn on beyond 1e10 cycles
+        /// life at which S_H is 1, the line of life drawn on beyond 1e10 cycles; `null` where it has no end (`long_life_factor = 1`)
         pub pitting_life_h: f64,
         /// Z_B or Z_D (2019: f_ZCa is 1)
         pub single_contact_factor: f64,
@@ -124,7 +124,7 @@ described::described! {
         pub root_stress_limit_mpa: f64,
         /// S_F
         pub bending_safety: f64,
-        /// life at which S_F is 1, the line of life drawn on beyond 1e10 cycles
+        /// life at which S_F is 1, the line of life drawn on beyond 1e10 cycles; `null` where it has no end (`long_life_factor = 1`)
         pub bending_life_h: f64,
         /// Y_F
         pub form_factor: f64,

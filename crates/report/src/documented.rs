@@ -2,6 +2,7 @@
 
 use analysis::{
     accuracy_chart::{Density, ResonanceCurve, ResonancePrecision, WorkPrecision},
+    flank_orders::FlankOrders,
     lumped::{LumpedCampbell, LumpedQuantity, SweepOptions},
     motion::{CampbellDiagram, MotionPrecision, MotionSpectrum, OrderCut, RunUp, Waterfall},
     parameter_study::{Findings, Follower},
@@ -9,7 +10,7 @@ use analysis::{
 use answer::{Checks, Cost, Phase, Remark, Table};
 use columns::derivative_columns;
 use described::Key;
-use ltca::StaticHistory;
+use ltca::{RootPattern, StaticHistory};
 use scene::{
     Scene, SceneError, SteadyBy, SweepScene,
     gearbox::Gearbox,
@@ -23,7 +24,7 @@ use crate::{
     answer_files::{Object, Summary},
     branch_files::{self, ShownBranch},
     compare, contact_files, gearbox_files, optimum_files,
-    pair_files::{key_rows, rows},
+    pair_files::{key_rows, rating, rows},
     plan_files, study_files,
 };
 
@@ -35,9 +36,13 @@ use crate::{
 /// [`SceneError`] when `scene` is no pair.
 pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String, Table)>, SceneError> {
     let pair = scene.gear_pair()?;
+    let [orders, shares] = contact_files::flank_orders(&FlankOrders::default());
     let of_pair = of_motions().into_iter().chain([
         contact_files::contact_lines(scene, &pair, &StaticHistory::default()),
+        orders,
+        shares,
         contact_files::of_places("contact_pattern_pinion", &[]),
+        rating::of_root("root_pattern_pinion", &RootPattern::default()),
         study_files::documented(&study(), &findings()),
         plan_files::documented(),
     ]);

@@ -92,7 +92,7 @@ pub use schema::{
     MesherScene, Method, MisalignmentScene, Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene,
     PairScene, Quantity, RampScene, RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene,
     ShaftCoordinate, ShaftScene, ShaperScene, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay,
-    all_keys, json_schema,
+    Turn, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use geometry::GearPair;
+use metrology::GdeNames;
 use report::measured_files;
 use scene::Scene;
 
@@ -11,10 +12,13 @@ use crate::error::CommandError;
 /// Words of a measured gear.
 #[derive(Debug, clap::Args)]
 pub(super) struct MeasuredArgs {
-    /// Evaluate a measured gear in place of the sheet: `pinion=FILE` or `wheel=FILE`, a curve file (MKA); writes topographies by
-    /// tooth, pitch errors, deviations and waves into `--out`
+    /// Evaluate a measured gear in place of the sheet: `pinion=FILE` or `wheel=FILE`, a curve file (MKA) or with `--names` an
+    /// XML file (GDE); writes topographies by tooth, pitch errors, deviations and waves into `--out`
     #[arg(long, value_name = "GEAR=FILE", requires = "out", conflicts_with = "json")]
     measured: Option<String>,
+    /// Where an XML file (VDI/VDE 2610) has its values: TOML with a path of elements a key, such as `teeth = "gear/@z"`
+    #[arg(long, value_name = "FILE", requires = "measured")]
+    names: Option<PathBuf>,
     /// Folder for the files of `--measured`; created if missing
     #[arg(long, value_name = "DIR", requires = "measured")]
     out: Option<PathBuf>,
@@ -33,10 +37,15 @@ impl MeasuredArgs {
             }
         };
         let path = Path::new(file);
-        let read = files::read_regular_file(path, files::most::DATA);
-        let bytes = read.map_err(|e| CommandError::input(format_args!("{file}: {e}"), None))?;
         let refused = |e: metrology::MetrologyError| CommandError::input(&e, e.hint());
-        let measured = metrology::read_mka(&bytes, path).map_err(refused)?;
+        let measured = match &self.names {
+            None => metrology::read_mka(&bytes_of(path)?, path),
+            Some(names) => {
+                let (names_of, text) = (text_of(names)?, text_of(path)?);
+                GdeNames::parse(&names_of, names).and_then(|own| metrology::read_gde(&text, &own, path))
+            }
+        };
+        let measured = measured.map_err(refused)?;
         let made = measured_files(&measured, gear.1, (gear.0, scene.side()), file).map_err(refused)?;
         std::fs::create_dir_all(out).map_err(|e| CommandError::write(out, &e))?;
         let mut all = made.files;
@@ -49,4 +58,17 @@ impl MeasuredArgs {
         }
         Ok(Some(made.text))
     }
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, CommandError> {
+    let read = files::read_regular_file(path, files::most::DATA);
+    read.map_err(|e| CommandError::input(format_args!("{}: {e}", path.display()), None))
+}
+
+fn text_of(path: &Path) -> Result<String, CommandError> {
+    let not_text = |_| {
+        let hint = "save it as UTF-8".to_owned();
+        CommandError::input(format_args!("{}: is no UTF-8 text", path.display()), Some(hint))
+    };
+    String::from_utf8(bytes_of(path)?).map_err(not_text)
 }

@@ -73,3 +73,47 @@ fn a_measured_gear_is_evaluated_and_run() {
     let said = refused(["geometry", "a.toml", "--measured", "wheel=c.mka", "--out", "x"]);
     assert!(said.contains("the measured gear has normal module [mm] 2.5, the gear 3"), "{said}");
 }
+
+/// A file of another machine is read by a map of names: the same gear as from its curve file.
+#[test]
+fn names_tell_where_a_file_has_its_values() {
+    let pair = PAIR.replace("MESHER", MESHER);
+    let curve = curves(61.0, 0.4);
+    let traces = curve.split("Profil:").skip(1).map(|block| {
+        let tooth: u32 =
+            block.split("Zahn-Nr.:").nth(1).unwrap().trim_start().split(' ').next().unwrap().parse().unwrap();
+        let values = block.lines().nth(1).unwrap();
+        format!("<p n='{tooth}' s='L'><z>0</z><a>86</a><e>95.5</e><v>{values}</v></p>\n")
+    });
+    let xml = format!("<m><g z='30'><mn>3</mn><b>0</b><a>20</a></g>\n<t>\n{}</t></m>\n", traces.collect::<String>());
+    let names = "teeth = \"g/@z\"\nnormal_module = \"g/mn\"\nhelix_angle = \"g/b\"\npressure_angle = \"g/a\"\n\
+                 profiles = \"t/p\"\nhelices = \"t/l\"\ntooth = \"@n\"\nside = \"@s\"\nleft = \"L\"\nright = \"R\"\n\
+                 place = \"z\"\nfrom = \"a\"\nto = \"e\"\nvalues = \"v\"\n";
+    let scratch = Scratch::new()
+        .file("a.toml", pair)
+        .file("g.mka", curve)
+        .file("g.xml", xml)
+        .file("names.toml", names)
+        .file("less.toml", names.replace("values", "value"));
+    for words in [
+        &["geometry", "a.toml", "--measured", "pinion=g.mka", "--out", "mka"][..],
+        &["geometry", "a.toml", "--measured", "pinion=g.xml", "--names", "names.toml", "--out", "gde"],
+    ] {
+        let told = scratch.command(words);
+        assert_eq!(told.code, Some(0), "{}", told.stderr);
+        assert!(told.stdout.contains("order   61    0.400 um   no multiple of the teeth"), "{}", told.stdout);
+    }
+    let data = |folder: &str| {
+        let text = scratch.read(&format!("{folder}/pinion_drive.csv"));
+        text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(data("mka"), data("gde"));
+    let refused = |names: &str| {
+        let run =
+            scratch.command(&["geometry", "a.toml", "--measured", "pinion=g.xml", "--names", names, "--out", "x"]);
+        assert_eq!(run.code, Some(2), "{}", run.stdout);
+        run.stderr
+    };
+    let said = refused("less.toml");
+    assert!(said.contains("less.toml:14: unknown field `value`") && said.contains("hint: keys: teeth"), "{said}");
+}

@@ -148,3 +148,61 @@ fn samples_have_pitch_deviations() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(number(&summary(&scratch, "o"), "goal_optimum_um") > 0.0);
 }
+
+/// Measured gears as the starting point: what is quietest for the scatter of several. Each gear is a sample; what is told of
+/// the optimum is the mean over runs with each of them. A profile slope cancels that of the one gear that is measured, and
+/// of three gears the mean.
+#[test]
+fn measured_gears_are_samples() {
+    // Profile slopes of three gears, um over the profile.
+    let slopes = [-4.0, 1.0, 6.0];
+    let gear = |slope: f64| {
+        let row = |i: i32| {
+            let depth = slope * (0.1 * f64::from(i) - 0.5);
+            format!("{}, {depth}, {depth}\n", 10.0 + 2.2 * f64::from(i))
+        };
+        "roll_deg, -9, 9\n".to_owned() + &(0..11).map(row).collect::<String>()
+    };
+    let mesher = "thickness_allowance_mm = 0.05\nmesher = { order = 1, elements_profile = 2, elements_thickness = 2, \
+                  elements_face = 2, elements_rim = 1 }";
+    let pair = format!(
+        "[pinion]\nteeth = 30\nhelix_angle_deg = 15.0\n{mesher}\n[pinion.modification.drive]\ntopography = \"g0.csv\"\n\
+         profile_slope_um = 0.0\n[wheel]\nteeth = 30\n{mesher}\n[pair]\nnormal_module_mm = 3.0\nface_width_mm = 20.0\n\
+         [operation]\ntorque_nm = 150.0\n[analysis]\npositions_per_cycle = 8\n[contact]\nslices = 6\n"
+    );
+    let key = "pinion.modification.drive.profile_slope_um";
+    let optimise = format!(
+        "scene = \"pair.toml\"\n[optimise]\nkeys = [\"{key}=-30:30\"]\nevaluations = 8\nround = [\"{key}=0\"]\n"
+    );
+    let all = "tolerances = [\"pinion.modification.drive.topography=g0.csv,g1.csv,g2.csv\"]\n";
+    let mut scratch = Scratch::new()
+        .file("pair.toml", pair)
+        .file("all.toml", optimise.clone() + all)
+        .file("drawn.toml", optimise.clone() + &format!("tolerances = [\"{key}=1,2\"]\n"))
+        .file("one.toml", optimise);
+    for (i, slope) in slopes.into_iter().enumerate() {
+        scratch = scratch.file(&format!("g{i}.csv"), gear(slope));
+    }
+    let found = |name: &str| {
+        let run = scratch.ale_gear(["optimise", &format!("{name}.toml"), "--out", name]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let text = scratch.read(&format!("{name}/optimum.toml"));
+        let line = text.lines().find(|line| line.trim_start().starts_with("profile_slope_um")).unwrap().to_owned();
+        line.split('=').nth(1).unwrap().trim().parse::<f64>().unwrap()
+    };
+    let [one, all] = ["one", "all"].map(found);
+    println!("profile slope {one:.2} um for the first gear, {all:.2} um for three");
+    assert!((one + slopes[0]).abs() < 0.5, "{one} um for a gear of {} um", slopes[0]);
+    assert!((all + slopes.iter().sum::<f64>() / 3.0).abs() < 0.5, "{all} um for gears of {slopes:?} um");
+    let goal = |i: usize| {
+        let set = [format!("{key}={all:?}"), format!("pinion.modification.drive.topography=g{i}.csv")];
+        let run = scratch.command(&["run", "pair.toml", "--out", "side", "--set", &set[0], "--set", &set[1]]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        number(&summary(&scratch, "side"), "peak_to_peak_ste_um")
+    };
+    let mean = (0..3).map(goal).sum::<f64>() / 3.0;
+    let told = number(&summary(&scratch, "all"), "goal_optimum_um");
+    assert!((told - mean).abs() < 1e-6 * mean, "{told} is told, runs have {mean}");
+    let run = scratch.ale_gear(["optimise", "drawn.toml", "--out", "x"]);
+    assert!(run.code == Some(2) && run.stderr.contains("a tolerance is drawn"), "{}", run.stderr);
+}

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, SharedModels, StaticResult, StaticSink,
-    error::in_scene, refused::Refusal, statics::CycleAnalysis,
+    error::in_scene, pair_rating, refused::Refusal, solved_load::under_loads, statics::CycleAnalysis,
 };
 
 /// A static scene to be solved with error bounds.
@@ -108,9 +108,26 @@ impl<'a> StaticAnalysis<'a> {
             let hint = "leave [accuracy] out, or name the files of the meshes in the scene";
             return Err(in_scene(self.scene)(Refusal::input("there are no bounds of meshes in memory", hint)));
         }
+        pair_rating::check(self.scene, &self.scene.gear_pair()?)?;
         let mut ladder = RestLadder::new(self.scene, self.cache, sink);
         let Climbed { solved: mut result, accuracy, tried, .. } = climb(&mut ladder, observer)?;
         result.facts.accuracy = Some(Accuracy { rungs: tried, ..accuracy });
+        self.add_loads(&mut result, observer)?;
         Ok(result)
+    }
+
+    /// The loads of the scene's spectrum, solved with the model of the rung that was taken.
+    fn add_loads(&self, result: &mut StaticResult, observer: &mut dyn Observer) -> Result<(), AnalysisError> {
+        let (Some(rating), Some(model)) = (&self.scene.rating, &result.model) else { return Ok(()) };
+        if rating.spectrum.is_none() {
+            return Ok(());
+        }
+        result.scene.rating = Some(rating.clone());
+        let solved = under_loads(&result.scene, model, (&|| true, observer));
+        result.history.under_loads = solved.map_err(|failure| failure.into_error(self.scene))?;
+        let said = pair_rating::remarks(&result.scene, &result.history);
+        let new: Vec<_> = said.into_iter().filter(|own| !result.history.remarks.contains(own)).collect();
+        result.history.remarks.extend(new);
+        Ok(())
     }
 }

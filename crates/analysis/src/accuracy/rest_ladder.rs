@@ -34,6 +34,15 @@ pub(super) struct RestLadder<'a> {
     failed: bool,
 }
 
+/// A scene without its load spectrum.
+fn without_spectrum(scene: &Scene) -> Scene {
+    let mut own = scene.clone();
+    if let Some(rating) = &mut own.rating {
+        rating.spectrum = None;
+    }
+    own
+}
+
 impl<'a> RestLadder<'a> {
     /// Ladder of a scene with `[accuracy]`.
     pub fn new(scene: &'a Scene, cache: &'a dyn GearCache, sink: &'a mut dyn StaticSink) -> Self {
@@ -115,6 +124,8 @@ impl Ladder for RestLadder<'_> {
     }
 
     fn solve(&mut self, scene: &Scene, observer: &mut dyn Observer) -> Result<StaticResult, AnalysisError> {
+        // Loads of a spectrum are solved on the rung that is taken.
+        let scene = &without_spectrum(scene);
         CycleAnalysis::new(scene).with_slices_of_scene().with_cache(&self.kept).solve_into(observer, self.sink)
     }
 

@@ -12,7 +12,7 @@ pub use ltca::{face_load_factor_of as face_load_factor, load_sharing_ratio, tran
 pub(crate) use pattern::pressed;
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};
-pub(crate) use root_stress::{DOUBTFUL_PERCENT, mesh_tensions};
+pub(crate) use root_stress::{DOUBTFUL_PERCENT, mesh_roots, mesh_tensions};
 pub use root_stress::{
     GearRootStress, MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, Place, RootStressHeadline, VON_MISES, error_percent,
     fillet_peaks, largest_tensions, root_stress_headline, root_stress_remarks,

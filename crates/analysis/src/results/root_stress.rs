@@ -3,7 +3,8 @@
 use gearbox::MeshState;
 use geometry::Side;
 use ltca::{
-    FilletField, FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StaticHistory, StaticPosition, StressPeak,
+    FilletField, FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootPattern, StaticHistory,
+    StaticPosition, StressPeak,
 };
 use serde::Serialize;
 
@@ -141,6 +142,15 @@ pub(crate) fn mesh_tensions(states: &[&MeshState]) -> Option<[f64; 2]> {
     let peaks: Vec<[Vec<FilletStress>; 2]> =
         states.iter().map(|own| own.root_stress.each_ref().map(|fillets| fillet_peaks(fillets))).collect();
     largest_tensions(peaks.iter())
+}
+
+/// Largest tensions at the points of the loaded fillets of a mesh of a gearbox; `None` without root stress.
+pub(crate) fn mesh_roots(states: &[&MeshState], side: Side) -> Option<[RootPattern; 2]> {
+    let mut both = <[RootPattern; 2]>::default();
+    for state in states {
+        both.iter_mut().zip(&state.root_stress).for_each(|(own, fields)| own.take(fields, side));
+    }
+    both.iter().all(|own| !own.places.is_empty()).then_some(both)
 }
 
 /// Peaks of the fillets of a mesh of a gearbox.

@@ -6,6 +6,7 @@ mod bores;
 mod continuation;
 mod exchanged;
 mod face_load;
+mod flank_orders;
 mod gearbox;
 mod gearbox_accuracy;
 mod gearbox_branch;

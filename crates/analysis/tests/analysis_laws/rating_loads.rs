@@ -46,7 +46,7 @@ fn a_spectrum_of_a_pair_adds_up_over_its_loads() {
             let gears = own.spectrum.as_ref().map(|s| [s.pinion, s.wheel]).unwrap();
             gears.iter().flat_map(|g| [g.pitting_damage, g.bending_damage]).collect()
         }),
-        ("root", |own| own.local_spectrum.as_ref().unwrap().bending_damage.unwrap().to_vec()),
+        ("root", |own| own.local_spectrum.as_ref().unwrap().roots.as_ref().unwrap().concat()),
         ("places", |own| own.local_spectrum.as_ref().unwrap().flanks.concat()),
     ];
     for (what, of) in of {
@@ -59,6 +59,10 @@ fn a_spectrum_of_a_pair_adds_up_over_its_loads() {
     let local = both.local_spectrum.as_ref().unwrap();
     for gear in 0..2 {
         assert_eq!(local.flanks[gear].iter().copied().fold(0.0, f64::max), local.pitting_damage[gear]);
+        let roots = &local.roots.as_ref().unwrap()[gear];
+        assert_eq!(roots.iter().copied().fold(0.0, f64::max), local.bending_damage.unwrap()[gear]);
+        // One point is the worst, and most of a fillet bears nearly nothing.
+        assert!(roots.iter().filter(|sum| **sum < 0.1 * local.bending_damage.unwrap()[gear]).count() > roots.len() / 2);
     }
 }
 
@@ -93,6 +97,30 @@ fn local_damage_of_the_nominal_load_is_its_safety() {
         close("pitting", damage.pitting_safety[gear], local.pitting_safety[gear], 1e-9);
         close("bending", damage.bending_safety.unwrap()[gear], local.bending_safety.unwrap()[gear], 1e-9);
     }
+}
+
+/// A misaligned pair that a spectrum breaks: the sums of its worst places are told with these places. A pair with bounds has
+/// the loads of its spectrum solved as well, by the model that is taken in the end.
+#[test]
+fn places_that_fail_are_told_and_bounds_keep_the_loads() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("loads.csv"), "torque_nm,speed_rpm,share\n900,1000,1\n500,1000,1\n").unwrap();
+    let scene = coarse().relative_to(folder.path()).set("rating.spectrum", "loads.csv");
+    let scene = scene.set("pair.misalignment.in_plane_of_action_um", 40.0).set("output.root_stress", true);
+    let scene = scene.torque_nm(900.0);
+    let plain = StaticAnalysis::new(&scene.build().unwrap()).solve().unwrap();
+    let told = |all: &[answer::Remark]| all.iter().filter(|r| r.code() == "local_spectrum_fails").count();
+    let rating = RatingHeadline::of(&plain.scene, &plain.history).unwrap();
+    let local = rating.local_spectrum.unwrap();
+    assert!(local.pitting_damage.iter().all(|sum| *sum > 1.0), "{:?}", local.pitting_damage);
+    let high = local.pitting_damage.iter().chain(&local.bending_damage.unwrap()).filter(|sum| **sum > 1.0).count();
+    assert_eq!(told(&plain.history.remarks), high, "{:?}", plain.history.remarks);
+    let bounded = scene.set("analysis.model", "reduced").set("accuracy.mean_ste", "90 %").build().unwrap();
+    let bounded = StaticAnalysis::new(&bounded).solve().unwrap();
+    let own = RatingHeadline::of(&bounded.scene, &bounded.history).unwrap().local_spectrum.unwrap();
+    assert_eq!(own.pitting_damage, local.pitting_damage);
+    assert_eq!(own.roots, local.roots);
+    assert_eq!(told(&bounded.history.remarks), high);
 }
 
 /// Three gears in a row on held shafts, the middle one between the others, driven at `input` and loaded by torques: ratings of both meshes, and remarks on what is `stated` of the middle gear.

@@ -12,6 +12,7 @@
 //! converged.
 
 mod fillet;
+mod pattern;
 mod turn;
 
 use std::{
@@ -25,6 +26,7 @@ use fem::{DofMap, ElementOptions, Material, StressOperator};
 use fillet::{Fillet, Surroundings, fallback_radius};
 use geometry::{GearPair, Side};
 use mesh::{Face, Mesh, RootFillets};
+pub use pattern::RootPattern;
 use reduction::{ElasticGear, ReducedGear, ReductionError, StressModes};
 use serde::Serialize;
 
@@ -237,6 +239,9 @@ impl RootStress {
     ///
     /// `loads` are those of an equilibrium: forces (N) on the boundary coordinates of reduced gears, displacements (mm)
     /// of whole gears. Without loads the stress is zero.
+    ///
+    /// # Errors
+    /// [`StaticError`] where the stress has no maps.
     pub fn of(
         &self,
         windowed: &WindowedPair,

@@ -20,6 +20,8 @@ const SMALLEST_SHARE: f64 = 1e-9;
 
 /// Rows that press or may do so at once, and the forces on them.
 pub(super) struct Conditions {
+    /// Numbers of the rows among all candidates.
+    pub numbers: Vec<usize>,
     pub slices: SameSlices,
     pub forces: Vec<f64>,
     /// Rows that press, and do so whatever the next small change is.
@@ -76,6 +78,7 @@ impl Conditions {
             presses,
             hardest,
             pressure,
+            numbers: which,
         }
     }
 

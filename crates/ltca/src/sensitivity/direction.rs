@@ -77,6 +77,26 @@ impl<'a> Directions<'a> {
         rotation.is_finite().then_some(Answer { forces, rotation })
     }
 
+    /// Turn of the driven gear (rad) by the gap (mm) of each row that presses; 0 of the others.
+    ///
+    /// ```text
+    /// dtheta/dg = -A^-T l / (l . A^-1 R_theta - M_theta)
+    /// ```
+    /// (77) with R_p = dg, the mean of both directions.
+    pub fn turns_by_gap(&self) -> Vec<f64> {
+        let Pressing { rows, factor, turned } = &self.pressing;
+        let mut carried = Mat::from_fn(rows.len(), 1, |i, _| self.torque_levers[rows[i]]);
+        factor.solve_transpose_in_place(&mut carried);
+        let resists = |side: usize| {
+            let torque: f64 = rows.iter().zip(&turned[side]).map(|(&row, f)| self.torque_levers[row] * f).sum();
+            torque - self.turned.moment[side]
+        };
+        let per_gap = 0.5 * (1.0 / resists(0) + 1.0 / resists(1));
+        let mut all = vec![0.0; self.at.forces.len()];
+        rows.iter().zip(carried.col(0).iter()).for_each(|(&row, y)| all[row] = -per_gap * y);
+        all
+    }
+
     /// Answer in one direction (side 0: as the parameter falls): rows that are about to touch or to leave press if they
     /// are pressed on, and kinks of the rotation count on the side that it turns to.
     fn in_direction(&self, rates: &Rates, side: usize) -> Option<Answer> {

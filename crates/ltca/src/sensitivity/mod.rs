@@ -5,9 +5,11 @@
 //! | `variation` | a parameter, as two neighbours of the pair |
 //! | `conditions` | what the neighbours change of the conditions of contact, forces held |
 //! | `direction` | the solution's answer, in either direction of the parameter |
+//! | `gap_rates` | the transmission error by the gap at each place of contact |
 
 mod conditions;
 mod direction;
+mod gap_rates;
 mod variation;
 
 use contact::{ContactSet, Friction, TableWork, slice::FlankRates};
@@ -16,6 +18,7 @@ use crate::{Equilibrium, StaticError, StaticModel, WindowedPair};
 
 use conditions::{Conditions, Rates};
 use direction::Directions;
+pub(crate) use gap_rates::gap_rates;
 use variation::Touch;
 pub use variation::Variation;
 

@@ -90,7 +90,8 @@ fn damaged_files_never_panic() {
     let bytes = write_mka(&small).into_bytes();
     let mut rng = ChaCha8Rng::seed_from_u64(46);
     let mut read_all = 0;
-    for _ in 0..100_000 {
+    let count = testing::cases(100_000, 1_000_000);
+    for _ in 0..count {
         let mut own = bytes.clone();
         for _ in 0..rng.random_range(1..6) {
             let at = rng.random_range(0..own.len());
@@ -116,7 +117,7 @@ fn damaged_files_never_panic() {
             let _ = metrology::flanks(&gear, &crate::made::gear());
         }
     }
-    println!("{read_all} of 100000 damaged files are gears");
+    println!("{read_all} of {count} damaged files are gears");
     assert!(read_all > 100);
 }
 
@@ -171,4 +172,23 @@ fn gde_is_read_through_its_names() {
     );
     assert!(says(&GDE.replace("<v>2.5</v>", "<v>2,x</v>")).contains("g.xml:4: expected a number, found `x`"));
     assert!(says("<gde>").starts_with("g.xml:1: "));
+}
+
+/// The map of names is a file: what is missing or not known in it is told with its line.
+#[test]
+fn names_are_read_from_a_file() {
+    let text = "teeth = \"gear/@z\"\nnormal_module = \"gear/mn\"\nhelix_angle = \"gear/beta\"\n\
+        pressure_angle = \"gear/alpha\"\nprofiles = \"measurement/profile\"\nhelices = \"measurement/lead\"\n\
+        tooth = \"@tooth\"\nside = \"@datum_face\"\nleft = \"A\"\nright = \"B\"\nplace = \"at\"\n\
+        from = \"range/@from\"\nto = \"range/@to\"\nvalues = \"points/v\"\nundefined = -9999.0\n";
+    let parse = |text: &str| GdeNames::parse(text, Path::new("names.toml"));
+    assert_eq!(parse(text).unwrap(), names());
+    let says = |text: &str| parse(text).unwrap_err().to_string();
+    assert!(says(&text.replace("left", "links")).starts_with("names.toml:9: unknown field `links`"));
+    assert!(says(&text.replace("teeth = \"gear/@z\"\n", "")).contains("missing field `teeth`"));
+    assert!(
+        says(&text.replace("\"at\"", "3")).starts_with("names.toml:11: "),
+        "{}",
+        says(&text.replace("\"at\"", "3"))
+    );
 }

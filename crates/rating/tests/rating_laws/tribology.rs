@@ -2,8 +2,8 @@
 
 use rating::{
     Lubricants, Lubrication, LubricationMethod, PressedPlace, RatingError, RatingInput, Rolling, ScuffingInput,
-    ScuffingRating, SolvedContact, StandardRating, permissible_film, scuffing_rating, standard_rating,
-    test_specific_film,
+    ScuffingRating, SolvedContact, StandardRating, permissible_film, scuffing_rating, standard_micropitting,
+    standard_rating, test_specific_film,
 };
 
 use crate::{factors::printed, pair::nrel};
@@ -261,4 +261,45 @@ fn spur_pairs_have_a_third_of_the_load_at_the_ends() {
     // A pair alone from B to D: the hottest place is there or at the ends, and its share is 1/3 .. 1.
     assert!((1.0 / 3.0 - 1e-9..=1.0).contains(&r.flash.load_sharing_factor));
     assert_eq!(r.helical_load_factor, 1.0);
+}
+
+/// Method B is method A with the load of the standard: a contact that is pressed so at its contact points has the same film;
+/// the test gears at load stage 10 have that of the permissible film, and more load or speed act as on the solved contact.
+#[test]
+fn method_b_is_the_contact_of_the_standard() {
+    let pair = nrel();
+    let of = |rpm: f64, load: f64| {
+        let pair = RatingInput { pinion_speed_rpm: rpm, tangential_force: load, ..pair };
+        let standard = standard_rating(&pair).unwrap();
+        let input = input(&pair, &standard);
+        let found = standard_micropitting(&input, 1.0, None).unwrap().unwrap();
+        let (permissible, _) = permissible_film(&input.lubrication.lubricant, 1.0, None).unwrap();
+        assert!((found.safety * permissible / found.specific_film_thickness - 1.0).abs() < 1e-12);
+        assert!((found.film_thickness_um / 0.6 / found.specific_film_thickness - 1.0).abs() < 1e-12);
+        let geometry = &pair.geometry;
+        let rolling = Rolling::new(geometry, rpm);
+        // The point by the diameter that is told, pressed as it is there, without the load factors that are added again.
+        let radius = 0.5 * (found.pinion_diameter_mm.powi(2) - geometry.base_diameter[0].powi(2)).sqrt();
+        let line = geometry.centre_distance * geometry.working_pressure_angle.sin();
+        let factor = (standard.application_factor * standard.dynamic_factor).sqrt();
+        let place = PressedPlace {
+            radii: [radius, line - radius],
+            force: load,
+            line_load: load / geometry.face_width,
+            pressure: found.pressure_mpa / factor,
+            is_edge: false,
+        };
+        let power = load * geometry.reference_diameter[0] * rpm * std::f64::consts::PI / 6e4;
+        let solved = SolvedContact::new(input.lubrication.clone(), rolling, [place], 1, power);
+        let (own, _) = solved.micropitting(&input, 1.0, None).unwrap().unwrap();
+        // Bulk temperatures differ by the loss, which is that of one place here.
+        let bulk = own.bulk_temperature_c - found.bulk_temperature_c;
+        let film = own.specific_film_thickness / found.specific_film_thickness;
+        assert!((film - 1.0).abs() < 0.03 * bulk.abs().max(0.1), "film {film}, bulk {bulk} K apart");
+        found
+    };
+    let base = of(1165.9, 240_064.4);
+    assert!((0.05..0.5).contains(&base.tooth_loss_factor) && base.bulk_temperature_c > 80.0, "{base:?}");
+    assert!(["A", "E"].contains(&base.point), "the film is thinnest where flanks slide most: {base:?}");
+    assert!(of(600.0, 240_064.4).safety < base.safety && of(1165.9, 480_128.8).safety < base.safety);
 }

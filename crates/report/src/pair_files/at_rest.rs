@@ -4,6 +4,7 @@ use analysis::{
     Derivatives,
     accuracy::Quantity,
     facts::RunInfo,
+    flank_orders::FlankOrders,
     results::{Place, StaticHeadline, static_headline},
 };
 use ltca::StaticHistory;
@@ -14,7 +15,7 @@ use super::rating;
 use crate::{
     Cost, ReportError, Written,
     charts::{Curve, LineChart, banded_chart},
-    contact_files::{contact_lines, pattern_figure, write_patterns},
+    contact_files::{contact_lines, flank_orders, pattern_figure, write_patterns},
     page::{Content, Line, Part},
     write_result, write_rows,
 };
@@ -48,9 +49,15 @@ pub fn write_static_result(
         if scene.output.contact_lines {
             tables.push(contact_lines(scene, &pair, history));
         }
+        if scene.output.flank_orders {
+            tables.extend(flank_orders(&FlankOrders::of(scene, &pair, history)?));
+        }
         let patterns = analysis::results::patterns(scene, &pair, &history.positions)?;
         tables.extend(rating::with_safeties(write_patterns(scene, &patterns, results)?, headline.rating.as_ref()));
         pattern = pattern_figure(&patterns);
+    }
+    if let Some(roots) = &history.roots {
+        tables.extend(rating::root_patterns(roots, headline.rating.as_ref()));
     }
     let answer = pair_answer(scene, (facts, cost), &headline, &history.remarks, tables);
     let mut after = after(&headline, facts, pattern);

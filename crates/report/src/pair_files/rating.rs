@@ -2,7 +2,8 @@
 
 use analysis::pair_rating::RatingHeadline;
 use answer::Table;
-use rating::{GearDamage, GearRating, LocalDamage, StandardRating, local_pitting_safety};
+use ltca::RootPattern;
+use rating::{GearDamage, GearRating, LocalDamage, StandardRating, local_bending_safety, local_pitting_safety};
 
 use super::common::key;
 use crate::page::{Cell, Content, Grid, Line, Part};
@@ -67,7 +68,14 @@ fn local_damage(local: &LocalDamage) -> Vec<Line> {
         Line::text("  factor on pressures that makes it 1", text(local.pitting_safety, 2), "(pinion, wheel)"),
     ];
     if let (Some(sum), Some(safety)) = (local.bending_damage, local.bending_safety) {
-        lines.push(Line::text("local Miner's sum of root breakage", text(sum, 3), "(pinion, wheel)"));
+        let at = local.bending_damage_at.map_or(String::new(), |[pinion, wheel]| {
+            format!(
+                "; at d1 {:.2} z1 {:.2}, d2 {:.2} z2 {:.2} mm",
+                pinion.diameter_mm, pinion.z_mm, wheel.diameter_mm, wheel.z_mm
+            )
+        });
+        let places = format!("(pinion, wheel{at})");
+        lines.push(Line::text("local Miner's sum of root breakage", text(sum, 3), places));
         lines.push(Line::text("  factor on root stresses that makes it 1", text(safety, 2), "(pinion, wheel)"));
     }
     lines
@@ -93,6 +101,10 @@ fn oiled(rating: &RatingHeadline) -> Vec<Line> {
     if let Some(local) = &rating.local_scuffing {
         let at = format!("({:.1} C, d1 {:.2} mm)", local.contact_temperature_c, local.pinion_diameter_mm);
         lines.push(Line::number("  local S_B, by the solved pressure", local.safety, 2, at));
+    }
+    if let Some(m) = &rating.standard_micropitting {
+        let at = format!("(lambda {:.3} at {}, d1 {:.2} mm)", m.specific_film_thickness, m.point, m.pinion_diameter_mm);
+        lines.push(Line::number("safety against micropitting S_lambda, standard", m.safety, 2, at));
     }
     if let Some(m) = &rating.micropitting {
         let at = format!("(lambda {:.3}, d1 {:.2} mm)", m.specific_film_thickness, m.pinion_diameter_mm);
@@ -130,6 +142,33 @@ pub(super) fn with_safeties(mut patterns: Vec<Table>, rating: Option<&RatingHead
         add_oiled(table, k, rating);
     }
     patterns
+}
+
+/// The loaded fillets of pinion and wheel, a row a point, with local safety and damage where they are rated.
+pub(super) fn root_patterns(roots: &[RootPattern; 2], rating: Option<&RatingHeadline>) -> [Table; 2] {
+    [0, 1].map(|k| {
+        let own = &roots[k];
+        let mut table = of_root(["root_pattern_pinion", "root_pattern_wheel"][k], own);
+        if let Some((gears, local)) = rating.and_then(|r| Some((r.standard.gears(), r.local.as_ref()?))) {
+            let safety = |t: &f64| local_bending_safety(gears[k].root_stress_limit_mpa, *t, local.load_factor);
+            let all: Vec<f64> = own.tension.iter().map(safety).collect();
+            table.push_numbers("local_bending_safety", "safety against tooth root breakage by that stress", all);
+        }
+        if let Some(damage) = rating.and_then(|r| r.local_spectrum.as_ref()?.roots.as_ref()) {
+            let meaning =
+                "Miner's sum for tooth root breakage over the life, each load with the largest stress that it puts there";
+            table.push_numbers("bending_damage", meaning, damage[k].clone());
+        }
+        table
+    })
+}
+
+/// The points of a fillet under that name.
+pub(crate) fn of_root(name: &'static str, own: &RootPattern) -> Table {
+    Table::new(name)
+        .numbers("diameter_mm", "diameter of the point", own.places.iter().map(|at| 2.0 * at[0]))
+        .numbers("z_mm", "height of the point, from the gear's own mid-face", own.places.iter().map(|at| at[1]))
+        .numbers("max_principal_mpa", "largest first principal stress that came there, of all teeth; stress that rises up to the flank counts with the peak of its fillet at most", own.tension.iter().copied())
 }
 
 /// Contact temperature and film of every place of a pattern, where they are rated.

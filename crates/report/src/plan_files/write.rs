@@ -133,7 +133,7 @@ pub fn write_cases(
 /// What an axis goes through, or is drawn from.
 fn values_of(axis: &PlanAxis, of: impl Serialize) -> Value {
     axis.pitch.as_ref().map_or_else(
-        || json!(of),
+        || if axis.words.is_empty() { json!(of) } else { json!(axis.words) },
         |pitch| {
             let [single_pitch_um, total_pitch_um] = pitch.limits_um();
             json!({ "pitch-errors": { "single_pitch_um": single_pitch_um, "total_pitch_um": total_pitch_um } })

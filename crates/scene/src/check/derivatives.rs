@@ -3,13 +3,14 @@
 use toml::Spanned;
 
 use super::Checked;
-use crate::{Kind, Method, Model, Scene, SceneError, schema::RawScene, source::Source};
+use crate::{GearScene, Kind, Method, Model, Scene, SceneError, schema::RawScene, source::Source};
 
 /// Keys at the most: each costs a tenth of the run or so.
 const MOST: usize = 100;
 
 /// What has derivatives, and by what.
 pub(super) fn check(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    of_flanks(s, raw, scene)?;
     let Some(words) = raw.output.derivatives.as_ref().filter(|list| !list.is_empty()) else { return Ok(()) };
     let refuse = |word: &Spanned<String>, what: &str, advice: &str| Err(s.conflict(&word.span(), what, advice));
     let first = &words[0];
@@ -46,4 +47,26 @@ fn of_key(s: &Source<'_>, scene: &Scene, word: &Spanned<String>) -> Checked<()> 
         Err(SceneError::OutOfRange { .. } | SceneError::Geometry { .. }) => Ok(()),
         Err(e) => wrong(format!("there is no derivative by `{key}`: {e}"), "see `derivatives` in docs/scene.md"),
     }
+}
+
+/// Where orders have causes on the flanks: they are found by derivatives.
+fn of_flanks(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let Some(word) = raw.output.flank_orders.as_ref().filter(|own| *own.get_ref()) else { return Ok(()) };
+    let refuse = |what: &str, advice: &str| Err(s.conflict(&word.span(), what, advice));
+    let solved = scene.analysis.kind == Kind::Static && scene.analysis.model == Model::Reduced;
+    if !solved || !scene.accuracy.is_none() || scene.contact.method != Method::Slice || scene.operation.torque_nm == 0.0
+    {
+        let advice = "leave it out, or use `kind = \"static\"`, `model = \"reduced\"`, `method = \"slice\"`, a torque above 0 and no [accuracy]";
+        return refuse("`flank_orders` needs loaded contact of slices of the reduced model at rest", advice);
+    }
+    let deviates = |gear: &GearScene| {
+        gear.modification.drive.topography.is_some()
+            || gear.pitch_errors_file.is_some()
+            || !gear.pitch_errors_um.is_empty()
+    };
+    if ![&scene.pinion, &scene.wheel].into_iter().any(deviates) {
+        let what = "`flank_orders` needs flanks or teeth that deviate: no gear has a topography or pitch errors";
+        return refuse(what, "name a `topography` or `pitch_errors_file`, or leave `flank_orders` out");
+    }
+    Ok(())
 }

@@ -16,7 +16,7 @@ use super::{
 };
 use gear::{Hand, gear, pair};
 use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
-use tables::{accuracy, analysis, contact, operation, output};
+use tables::{accuracy, analysis, contact, of_turn, operation, output};
 use together::together;
 
 type Checked<T> = Result<T, SceneError>;
@@ -36,6 +36,7 @@ pub(super) fn scene(source: &Source<'_>, mut raw: RawScene) -> Checked<Scene> {
     let mut wheel = gear(source, &raw.wheel, hand, &pair, face_elements)?;
     let accuracy = accuracy(source, &raw)?;
     let analysis = analysis(source, &raw.analysis, !accuracy.is_none())?;
+    let analysis = of_turn(source, &raw.analysis, analysis, [pinion.teeth, wheel.teeth])?;
     models::check_tables(source, &raw, analysis.model)?;
     let dynamic = analysis.kind == Kind::Dynamic;
     if dynamic {

@@ -37,7 +37,9 @@ pub(super) fn bodies(s: &Source<'_>, raw: &RawScene, model: Model, gears: [&mut 
 
 /// The table on motion, as the model takes it.
 pub(super) fn in_time(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<MotionScene> {
-    let said = motion::motion(s, table_of(&raw.motion).unwrap_or(&Default::default()), &raw.analysis.cycles)?;
+    let (cycles, turn) = (&raw.analysis.cycles, &raw.analysis.turn);
+    let length = [cycles.as_ref().map(|own| ("cycles", own.span())), turn.as_ref().map(|own| ("turn", own.span()))];
+    let said = motion::motion(s, table_of(&raw.motion).unwrap_or(&Default::default()), length)?;
     // Only a mesh that says so has a damping of its own.
     let damped = models::Rung::of(model).is_none_or(|r| r.mesh_damping);
     Ok(MotionScene { mesh_damping_ratio: said.mesh_damping_ratio.filter(|_| damped), ..said })

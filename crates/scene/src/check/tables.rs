@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::Checked;
 use crate::{
     AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, models,
-    schema::{ANALYSIS, CONTACT, LEAST_SLICES, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
+    schema::{ANALYSIS, CONTACT, LEAST_SLICES, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene, Turn},
     source::Source,
     table::Choice,
 };
@@ -84,6 +84,30 @@ pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis, accuracy: bool) -> Che
         cycles: s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, low, high)?,
         ..read
     })
+}
+
+/// Cycles of the turn that is asked for: z_1, z_2, or z_1 z_2/gcd(z_1, z_2).
+pub(super) fn of_turn(
+    s: &Source<'_>,
+    raw: &RawAnalysis,
+    analysis: Analysis,
+    [pinion, wheel]: [u32; 2],
+) -> Checked<Analysis> {
+    let Some((turn, word)) = analysis.turn.zip(raw.turn.as_ref()) else { return Ok(analysis) };
+    if raw.cycles.is_some() {
+        let what = "`turn` and `cycles` both say how many mesh cycles are solved";
+        return Err(s.conflict(&word.span(), what, "keep one of them"));
+    }
+    let (mut common, mut rest) = (pinion, wheel);
+    while rest > 0 {
+        (common, rest) = (rest, common % rest);
+    }
+    let cycles = match turn {
+        Turn::Pinion => pinion,
+        Turn::Wheel => wheel,
+        Turn::Hunting => pinion / common.max(1) * wheel,
+    };
+    Ok(Analysis { cycles, turn: None, ..analysis })
 }
 
 pub(super) fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {

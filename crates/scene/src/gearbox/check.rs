@@ -198,6 +198,7 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     let own = &scene.output;
     let files = [
         ("contact_lines", own.contact_lines),
+        ("flank_orders", own.flank_orders),
         ("parquet", own.parquet),
         ("vtu", own.vtu),
         ("derivatives", !own.derivatives.is_empty()),

@@ -40,9 +40,11 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<GearboxOfPair, SceneError> {
         left.push("[accuracy]: that of a gearbox has other quantities".to_owned());
     }
     let output = &scene.output;
-    if output.root_stress || output.contact_lines || output.vtu || !output.derivatives.is_empty() {
+    if output.root_stress || output.contact_lines || output.flank_orders || output.vtu || !output.derivatives.is_empty()
+    {
         left.push(
-            "[output]: root stress, contact lines, ParaView files and derivatives are the pair's alone".to_owned(),
+            "[output]: root stress, contact lines, orders of flanks, ParaView files and derivatives are the pair's alone"
+                .to_owned(),
         );
     }
     let mut said = vec!["Gearbox of one pair: at rest on held shafts it computes what the pair alone does.".to_owned()];

@@ -7,7 +7,7 @@ use crate::schema::{
     Integration, MotionScene, RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep, Run, SweepScene, SweepWay,
 };
 use crate::source::Source;
-use crate::spanned::{Number, Whole};
+use crate::spanned::Number;
 use crate::{BasinScene, ContinuationScene, RampScene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
@@ -33,9 +33,14 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
     value.as_ref().map(Spanned::span)
 }
 
-pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked<MotionScene> {
+/// `length`: keys of `[analysis]` that say how many cycles there are, and where.
+pub(crate) fn motion(
+    s: &Source<'_>,
+    raw: &RawMotion,
+    length: [Option<(&'static str, Span)>; 2],
+) -> Checked<MotionScene> {
     let run = choice!(s, raw.run)?;
-    check_keys_of_run(s, raw, run, cycles)?;
+    check_keys_of_run(s, raw, run, &length)?;
     let method = method(s, raw)?;
     if let (Some(_), Some(per_length)) = (&raw.mesh_damping_ratio, &raw.mesh_damping_ns_per_mm2) {
         let what = "`mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped";
@@ -61,7 +66,12 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
 }
 
 /// Keys go with the run that they say something of.
-fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked<()> {
+fn check_keys_of_run(
+    s: &Source<'_>,
+    raw: &RawMotion,
+    run: Run,
+    length: &[Option<(&'static str, Span)>; 2],
+) -> Checked<()> {
     for (key, at, allowed) in [
         ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP, CONTINUATION, BASINS][..]),
         ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP, CONTINUATION, BASINS][..]),
@@ -71,13 +81,15 @@ fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) 
         ("sweep", span(&raw.sweep), &[SWEEP][..]),
         ("continuation", span(&raw.continuation), &[CONTINUATION][..]),
         ("basins", span(&raw.basins), &[BASINS][..]),
-        ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP, CONTINUATION, BASINS][..]),
     ] {
         only(s, key, at, run, allowed)?;
     }
-    if let (Some(duration), Some(_)) = (&raw.duration_s, cycles) {
-        let what = "`duration_s` and `cycles` both say how long the span is";
-        return Err(s.conflict(&duration.span(), what, "keep one of them"));
+    for (key, at) in length.iter().flatten() {
+        only(s, key, Some(at.clone()), run, &[STEADY, SHOOTING, SPAN, SWEEP, CONTINUATION, BASINS])?;
+        if let Some(duration) = &raw.duration_s {
+            let what = format!("`duration_s` and `{key}` both say how long the span is");
+            return Err(s.conflict(&duration.span(), what, "keep one of them"));
+        }
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     Document, Scene, SceneError, Setting, Source, nearest,
-    plan::{DESIGNS, SEED, axes, classed, setting, unfit},
+    plan::{DESIGNS, PlanAxis, SEED, axes, classed, setting, unfit},
 };
 
 type Checked<T> = Result<T, SceneError>;
@@ -40,11 +40,12 @@ pub(super) fn check(
         seed: u64::from(s.whole("seed", &asked.seed, SEED, 0, u32::MAX)?),
     };
     let (tolerances, kinds) = axes(s, words(&asked.tolerances), |key, class| classed(&own, key, class, Some(0.0)))?;
-    if let Some(k) = kinds.iter().position(|kind| matches!(kind, Axis::Each(_))) {
+    let given = |(axis, kind): (&PlanAxis, &Axis)| matches!(kind, Axis::Each(_)) && axis.words.is_empty();
+    if let Some(k) = tolerances.iter().zip(&kinds).position(given) {
         return Err(s.conflict(
             &words(&asked.tolerances)[k].span(),
             "a tolerance is drawn",
-            "as `KEY~normal:0:5`, `KEY~-5:5`",
+            "as `KEY~normal:0:5`, `KEY~-5:5`; files of measured gears are listed, as `KEY=a.csv,b.csv`",
         ));
     }
     let samples = Cases::new(kinds, &sampling).map_err(|e| unfit(s, words(&asked.tolerances), &e))?;
@@ -122,7 +123,8 @@ pub(super) fn finish(all: Optimisation) -> Checked<Optimisation> {
             return Err(wrong(format!("changes `{}`, which changes nothing", parameter.name()), advice));
         }
     }
-    let numbers = all.tolerances.iter().filter(|axis| axis.pitch.is_none()).flat_map(|axis| &axis.keys);
+    let numbers = all.tolerances.iter().filter(|axis| axis.pitch.is_none() && axis.words.is_empty());
+    let numbers = numbers.flat_map(|axis| &axis.keys);
     if let Some(key) = numbers.into_iter().find(|key| scene.number_at(key).is_none()) {
         let advice = "give the key its nominal value in the scene, or leave the tolerance out";
         return Err(wrong(format!("has a tolerance for `{key}`, which has no number in the scene"), advice));

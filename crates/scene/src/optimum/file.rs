@@ -126,6 +126,10 @@ impl Optimisation {
                 continue;
             }
             for key in &axis.keys {
+                if let Some(word) = axis.word(key, deviation) {
+                    all.push(word?);
+                    continue;
+                }
                 let of_design = self.parameters.iter().position(|p| p.keys.contains(key)).map(|k| values[k]);
                 let own = match of_design {
                     Some(value) => value,

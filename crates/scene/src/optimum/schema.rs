@@ -28,7 +28,7 @@ table! {
         max_edge_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of it at end faces and tip edges, MPa: where a slice ends at an end face or a tip edge presses (places 2 to 4 of `max_pressure_place`)";
         front: whole(0, FRONT, 0), "points of the trade-off: optima below lower and lower limits of the pressure, down to that of the start, or by a tenth where that is no lower";
         quantile: bare(0.0, 0.999), "with tolerances and peak-to-peak: the mean of the samples that are worse than this share of them, in place of the mean of all";
-        tolerances: texts(), "deviations that are drawn, `KEY~normal:0:5`. Each is added to what the design, or the scene, says of its key; each sample is a pair from the machine, and the goal is taken over all of them";
+        tolerances: texts(), "deviations that are drawn, `KEY~normal:0:5`. Each is added to what the design, or the scene, says of its key; each sample is a pair from the machine, and the goal is taken over all of them. `KEY=a.csv,b.csv`, such as topographies of measured gears: each file with each sample";
         design: text(), "how samples are spread: latin-hypercube, sobol or random; default: latin-hypercube";
         samples: whole(1, SAMPLES[1], SAMPLES[0]), "how many samples of the tolerances";
         seed: whole(0, u32::MAX, SEED), "other samples for another seed";

@@ -100,6 +100,10 @@ pub(super) fn axis(word: &str, classed: &dyn Fn(&str, u32) -> Option<Classed>) -
     let AxisWord { keys, values } = AxisWord::parse(word)?;
     let pitch_errors = keys.iter().any(|key| is_pitch(key));
     let (pitch, kind) = match values {
+        AxisValues::Words(words) => {
+            let kind = Axis::Each((0..words.len()).map(|k| k as f64).collect());
+            return Ok((PlanAxis { keys, pitch: None, words }, kind));
+        }
         AxisValues::Between([from, to]) => {
             return Err(format!("say how many, as `={from}:{to}:9`, or draw them, as `~{from}:{to}`"));
         }
@@ -115,7 +119,7 @@ pub(super) fn axis(word: &str, classed: &dyn Fn(&str, u32) -> Option<Classed>) -
             classed(key, class).ok_or_else(|| format!("ISO 1328 has no tolerance for `{key}`: {CLASSED}"))?
         }
     };
-    Ok((PlanAxis { keys, pitch }, kind))
+    Ok((PlanAxis { keys, pitch, words: Vec::new() }, kind))
 }
 
 /// What the whole of a plan must be: keys and outputs are there once, and the scene is one.

@@ -35,6 +35,8 @@ pub struct PlanAxis {
     pub keys: Vec<String>,
     /// Pitch tolerance, if the axis is the pitch deviations of a gear.
     pub pitch: Option<PitchTolerance>,
+    /// Texts that its values count, from 0, such as names of files; none: values are numbers.
+    pub words: Vec<String>,
 }
 
 /// A value of a case.
@@ -73,10 +75,17 @@ impl PlanAxis {
     /// # Errors
     /// [`SceneError::Setting`] for a key that is none.
     fn settings(&self, value: f64) -> Result<Vec<Setting>, SceneError> {
-        match &self.pitch {
-            Some(pitch) => Ok(vec![pitch.setting(value)?]),
-            None => self.keys.iter().map(|key| Setting::number(key, value)).collect(),
+        if let Some(pitch) = &self.pitch {
+            return Ok(vec![pitch.setting(value)?]);
         }
+        let one = |key: &String| self.word(key, value).unwrap_or_else(|| Setting::number(key, value));
+        self.keys.iter().map(one).collect()
+    }
+
+    /// What a key is set to by a value that counts texts; `None` where values are numbers.
+    pub(crate) fn word(&self, key: &str, value: f64) -> Option<Result<Setting, SceneError>> {
+        let word = self.words.get(value as usize)?;
+        Some(Setting::of(key, &toml::Value::from(word.as_str())))
     }
 }
 

@@ -8,6 +8,8 @@ use geometry::TOLERANCE_CLASSES;
 pub enum AxisValues {
     /// The given values, or the distribution from which they are drawn.
     By(Axis),
+    /// The given texts, such as names of files.
+    Words(Vec<String>),
     /// Any value between two limits, in the order written.
     Between([f64; 2]),
     /// Within a tolerance class of ISO 1328-1.
@@ -22,6 +24,7 @@ pub enum AxisValues {
 /// key=0.1:10:9:log       their logarithms are     key~normal:0:5             mean, standard deviation
 /// key=0:40               any between              key~normal:0:5:-10:10      between limits
 /// one+other=1,2,5        both of them             key~iso1328:6              within a class of ISO 1328-1
+/// key=a.csv,b.csv        each of these files
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisWord {
@@ -58,7 +61,11 @@ fn axis(word: &str) -> Result<(Vec<String>, AxisValues), String> {
     let parts: Vec<&str> = values.split(':').collect();
     let axis = match (drawn, &parts[..]) {
         (false, [list]) => {
-            let values = numbers(&list.split(',').collect::<Vec<_>>())?;
+            let parts: Vec<&str> = list.split(',').map(str::trim).collect();
+            if parts.iter().all(|part| !part.is_empty() && part.parse::<f64>().is_err()) {
+                return Ok((keys(key), AxisValues::Words(parts.into_iter().map(str::to_owned).collect())));
+            }
+            let values = numbers(&parts)?;
             if let Some(bad) = values.iter().find(|x| !x.is_finite()) {
                 return Err(format!("`{bad}` is not a value"));
             }

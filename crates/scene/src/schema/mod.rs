@@ -48,7 +48,7 @@ pub use rating::{LubricationScene, RatedGearScene, RatingEdition, RatingScene};
 pub(crate) use scene::*;
 pub use scene::{
     Analysis, ContactScene, FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, OutputScene,
-    PairScene, Reduction,
+    PairScene, Reduction, Turn,
 };
 
 /// All keys of the scene file as dotted paths: `pinion.modification.drive.tip_relief_um`, `pinion.shaft.discs.0.at_mm`.

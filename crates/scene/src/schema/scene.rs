@@ -128,7 +128,20 @@ table! {
         reduction: word(Reduction) => Some, "how gears are condensed, with the same result (reduced, reduced+modes, mapped). auto: one sector where the gear is cyclic (a periodic sector, the built-in mesher, a whole mesh that a turn by one pitch leaves the same to round-off), else one factor of the whole gear; general: always the whole gear, to compare";
         positions_per_cycle: whole(1, 100_000, 32), "positions in one mesh cycle, evenly spaced, its end left out. In motion: of the quasi-static cycle that it starts from and that its mean stiffness is taken from";
         cycles: bare_whole(1, 100_000_000) => {u32} as written_cycles, "mesh cycles; default: 1, in time 8. In time those that are written, after the motion has settled";
+        turn: bare_word(Turn) => Some, "in place of `cycles`: as many mesh cycles as one turn takes, for flanks and pitch errors by tooth. pinion: of the pinion; wheel: of the wheel; hunting: until the same teeth meet again";
         window_teeth: bare_whole(1, 25), "teeth whose flanks are kept; default: floor(eps_gamma) + 1, at least 3, and one more, with a warning, as often as the load asks for it. A given number is never changed";
+    }
+}
+
+choices! {
+    /// Turn that the mesh cycles make up.
+    pub enum Turn {
+        /// Of the pinion.
+        Pinion = "pinion",
+        /// Of the wheel.
+        Wheel = "wheel",
+        /// Until the same teeth meet again.
+        Hunting = "hunting",
     }
 }
 
@@ -183,6 +196,7 @@ table! {
     OUTPUT, RawOutput => OutputScene Eq: "what is computed and written on request"; {
         root_stress: switch(false), "stress in the root fillets at every position or row (reduced and full at rest, reduced in motion, meshes of gearboxes at rest)";
         contact_lines: switch(false), "contact_lines.csv: every loaded slice of every position (method slice)";
+        flank_orders: switch(false), "te_orders.csv and te_shares.csv: orders of the transmission error over all `cycles`, and what each wave and each tooth of topographies and pitch errors makes of them, to first order. Model reduced with slices at rest, under load; `turn` in [analysis] solves a whole turn";
         parquet: switch(false) as written_parquet, "every table column by column as well: history.parquet beside history.csv, for long runs";
         vtu: switch(false), "ParaView files, as `--vtu`: at rest, and of one motion of the model reduced without checkpoints";
         fields: words(FieldName), "fields of the ParaView files; default: all";
