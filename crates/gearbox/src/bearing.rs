@@ -19,6 +19,9 @@ pub struct Bearing {
     /// Index of the shaft that contains its seat, from 0: a carrier, a pin, or a shaft within the shaft. `None`: the
     /// housing, or fixed in space.
     pub outer: Option<usize>,
+    /// Disc of the gear on its shaft in whose bore it is: its rolling elements press that bore itself, which is the outer race,
+    /// and the inner one is on the seat. `None`: a bearing on rigid rings, the inner one on the shaft.
+    pub bore_of: Option<usize>,
     /// Displacement of its seat from the nominal position, mm: an error of a bore or of a pin.
     pub offset: Vector3<f64>,
     /// Stiffness for displacements x, y, z and rotations about them, symmetric: N/mm, N, N mm. A 5x5 matrix has a zero
@@ -46,13 +49,18 @@ impl Bearing {
     /// A bearing with a given stiffness, without damping.
     pub fn linear(name: impl Into<String>, shaft: usize, position: f64, stiffness: Matrix6<f64>) -> Self {
         let (damping, preload, offset) = (Matrix6::zeros(), Vector6::zeros(), Vector3::zeros());
-        let (outer, law, stored) = (None, None, 0.0);
-        Self { name: name.into(), shaft, position, outer, offset, stiffness, damping, law, preload, stored }
+        let (outer, bore_of, law, stored) = (None, None, None, 0.0);
+        Self { name: name.into(), shaft, position, outer, bore_of, offset, stiffness, damping, law, preload, stored }
     }
 
     /// The same bearing with its seat in another shaft.
     pub fn in_shaft(self, outer: usize) -> Self {
         Self { outer: Some(outer), ..self }
+    }
+
+    /// The same bearing in the bore of a gear on its shaft.
+    pub fn in_bore_of(self, disc: usize) -> Self {
+        Self { bore_of: Some(disc), ..self }
     }
 
     /// A rolling bearing, without damping.

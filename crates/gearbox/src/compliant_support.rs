@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector5, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::{
     Assembly, Structure, Supports, Vector12,
@@ -16,6 +16,8 @@ pub(crate) struct CompliantBearing {
     /// Number of the bearing.
     pub bearing: usize,
     law: Arc<RollingBearing>,
+    /// Disc of the gear whose bore is its outer race.
+    pub bore_of: Option<usize>,
     /// First coordinates of what moves it among those of the seats, and what each adds to its displacement.
     ends: Vec<(usize, Matrix6<f64>)>,
     /// First coordinate of its open seat.
@@ -37,7 +39,7 @@ impl CompliantBearing {
             let of_nodes = assembly.bearing_ends(bearing).map(|(node, own)| Some((seats.of_node(node)?, *own)));
             let ends = of_nodes.chain(housing.map(|at| Some((at, -Matrix6::identity())))).collect::<Option<_>>()?;
             let turned = TurnedSeat::of(assembly, seats, bearing);
-            Some(Self { bearing, law, ends, housing, offset: b.offset6(), turned })
+            Some(Self { bearing, law, bore_of: b.bore_of, ends, housing, offset: b.offset6(), turned })
         };
         moving.filter_map(one).collect()
     }
@@ -51,7 +53,7 @@ impl CompliantBearing {
             let housing = open.map(|at| 6 * (structure.bearings.len() + at));
             let own = [(6 * bearing, Matrix6::identity())].into_iter();
             let ends = own.chain(housing.map(|at| (at, -Matrix6::identity()))).collect();
-            Some(Self { bearing, law, ends, housing, offset: b.offset6(), turned: None })
+            Some(Self { bearing, law, bore_of: b.bore_of, ends, housing, offset: b.offset6(), turned: None })
         };
         own.filter_map(one).collect()
     }
@@ -74,22 +76,53 @@ impl CompliantBearing {
         self.ends.iter().map(|(at, own)| own * y.fixed_rows::<6>(*at)).sum()
     }
 
-    /// Adds its forces and its -dV2/dy2 to those of the seats.
-    pub fn add(&self, y: &DVector<f64>, forces: &mut DVector<f64>, slopes: &mut DMatrix<f64>) -> RollingReply {
-        let evaluate = |u: Vector6<f64>| self.law.evaluate(&Vector5::from_fn(|k, _| u[k]));
+    /// The law of its rolling elements.
+    pub fn law(&self) -> &RollingBearing {
+        &self.law
+    }
+
+    /// Displacement of the shaft relative to the seat, in the axes of the seat where these turn.
+    pub fn seen(&self, y: &DVector<f64>) -> Vector6<f64> {
+        match &self.turned {
+            Some(seat) => seat.moved(&seat.seen(y)) - self.offset,
+            None => self.relative(y),
+        }
+    }
+
+    /// Slopes of this over the displacements of all seats.
+    pub fn slopes(&self, y: &DVector<f64>) -> DMatrix<f64> {
+        let mut slopes = DMatrix::zeros(6, y.len());
+        match &self.turned {
+            Some(seat) => seat.add_slopes(&seat.seen(y), &mut slopes),
+            None => self.ends.iter().for_each(|(at, own)| {
+                let mut block = slopes.fixed_view_mut::<6, 6>(0, *at);
+                block += own;
+            }),
+        }
+        slopes
+    }
+
+    /// Reply of its rigid rings.
+    pub fn reply(&self, y: &DVector<f64>) -> RollingReply {
+        let moved = self.seen(y).fixed_rows::<5>(0).into_owned();
+        match self.bore_of {
+            None => self.law.evaluate(&moved),
+            Some(_) => self.law.evaluate(&-moved).turned_inside_out(),
+        }
+    }
+
+    /// Adds the forces of a reply and its -dV2/dy2 to those of the seats.
+    pub fn add(&self, reply: &RollingReply, y: &DVector<f64>, forces: &mut DVector<f64>, slopes: &mut DMatrix<f64>) {
         if let Some(seat) = &self.turned {
             let seen = seat.seen(y);
-            let reply = evaluate(seat.moved(&seen) - self.offset);
             seat.add(&seen, (&reply.force6(), &reply.stiffness6()), forces, slopes);
-            return reply;
+            return;
         }
-        let reply = evaluate(self.relative(y));
         for (at, own) in &self.ends {
             let mut rows = forces.fixed_rows_mut::<6>(*at);
             rows += own.transpose() * reply.force6();
         }
         self.add_stiffness(&(-reply.stiffness6()), slopes);
-        reply
     }
 
     /// First coordinates of the shaft's node and of the seat's among those of the seats, and force and moment on both by a

@@ -70,6 +70,14 @@ pub enum GearboxError {
         /// Error of the rolling bearing.
         source: RollingBearingError,
     },
+    /// A bearing that cannot be in the bore of a gear.
+    #[error("bearing {bearing}: {source}")]
+    Bore {
+        /// Name of the bearing.
+        bearing: String,
+        /// What does not fit.
+        source: crate::BoreError,
+    },
     /// Rolling elements in a model that needs springs.
     #[error("bearing {bearing} has rolling elements, and this analysis needs a linear stiffness")]
     NotLinear {
@@ -457,6 +465,7 @@ impl GearboxError {
                  gear or section lie some nanometres beside another?"
             }
             Self::Bearing { source, .. } => source.hint(),
+            Self::Bore { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
             Self::ModesInMotion { .. } => "leave [motion] out, or [modes]",
             Self::LessThanModes { .. } => {

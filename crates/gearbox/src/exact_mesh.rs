@@ -144,6 +144,14 @@ impl ExactMesh {
         self.poses = displaced(nominal, &(*d).into());
     }
 
+    /// Angle of the frame of a gear's matrices from the mesh's own +x where nothing has moved, rad.
+    pub(crate) fn frame_angle(&self, end: usize) -> f64 {
+        let (set, window) = (self.contact.contact_set(), self.window.window());
+        let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [0.0; 2]);
+        let x = nominal[end].rotation * nalgebra::Vector3::x();
+        x.y.atan2(x.x)
+    }
+
     /// Forces of the last evaluation, which was at displacements `d`.
     pub(crate) fn forces(&self, d: &Vector12) -> MeshForces {
         self.in_coordinates(found_forces(self.contact.force()), d)

@@ -8,15 +8,23 @@ use contact::{
 };
 use faer::Mat;
 use ltca::StaticError;
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::{DVector, SMatrix, Vector3};
 use reduction::{ElasticGear, GearReducer, Window};
 
-use crate::{ExactMesh, GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Vector12, train::at_mesh};
+use crate::{
+    ExactMesh, GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Structure, Vector12,
+    compliant_support::CompliantBearing,
+    pressed_bore::{BoreFailure, BoreOfGear, SeenBy},
+    rolling_bearing::RollingReply,
+    train::at_mesh,
+};
 
 /// Compliances that are kept of a gear between two of its meshes: teeth change in turn, and come back.
 const KEPT: usize = 3;
 
-/// How the forces of a mesh follow the gears of another one that has a gear in common with it, in the axes of both.
+/// How the forces of a mesh or bearing follow the gears of another one that has a gear in common with it, in the axes of both.
+/// Bearings with rolling elements have the numbers after the meshes, and six coordinates: the displacement of the shaft
+/// against the seat.
 pub(crate) struct AcrossMeshes {
     pub of: usize,
     pub by: usize,
@@ -29,7 +37,20 @@ pub(crate) struct JoinedMeshes {
     /// Numbers of the meshes, ascending.
     pub meshes: Vec<usize>,
     gears: Vec<SharedGear>,
+    /// Bores that rolling elements press.
+    pub bores: Vec<BoreOfGear>,
+    /// Directions of the meshes, rad.
+    directions: Vec<f64>,
     contacts: JoinedContacts,
+}
+
+/// Forces of joined meshes and of the bearings in their gears, and how they follow each other.
+pub(crate) struct JoinedForces<'a> {
+    /// Of all meshes.
+    pub replies: &'a mut [Option<MeshForces>],
+    /// Of all bearings with rolling elements.
+    pub pressed: &'a mut [Option<RollingReply>],
+    pub across: &'a mut Vec<AcrossMeshes>,
 }
 
 /// A gear in two meshes.
@@ -45,7 +66,11 @@ struct SharedGear {
 
 impl JoinedMeshes {
     /// The joined meshes of a gearbox; meshes that are not exact are not among them.
-    pub fn all(meshes: &[GearMesh], meshing: &[Meshing], elements: &mut [Box<dyn MeshElement>]) -> Vec<Self> {
+    pub fn all(
+        (meshes, meshing): (&[GearMesh], &[Meshing]),
+        elements: &mut [Box<dyn MeshElement>],
+        supports: &[CompliantBearing],
+    ) -> Vec<Self> {
         let exact: Vec<usize> = (0..meshes.len()).filter(|&i| elements[i].to_join().is_some()).collect();
         let mut group: Vec<usize> = (0..meshes.len()).collect();
         let mut shared = Vec::new();
@@ -66,20 +91,31 @@ impl JoinedMeshes {
                 Some(SharedGear { contacts: [place(i)?, place(j)?], ends, directions, known: Vec::new() })
             };
             let gears: Vec<SharedGear> = shared.iter().filter_map(gear).collect();
-            (!gears.is_empty()).then(|| Self { meshes: own, gears, contacts: JoinedContacts::new() })
+            let bore = |(at, support): (usize, &CompliantBearing)| {
+                let ends = own.iter().enumerate().flat_map(|(k, mesh)| [0, 1].map(|end| (k, *mesh, end)));
+                let is_exact = |mesh: &usize| exact.binary_search(mesh).is_ok();
+                let of_gear =
+                    ends.filter(|(_, mesh, end)| is_exact(mesh) && support.bore_of == Some(meshes[*mesh].discs[*end]));
+                let seen: Vec<(usize, usize)> = of_gear.map(|(k, _, end)| (k, end)).collect();
+                (!seen.is_empty()).then(|| BoreOfGear::new(at, seen))
+            };
+            let bores: Vec<BoreOfGear> = supports.iter().enumerate().filter_map(bore).collect();
+            let directions = own.iter().map(|&mesh| meshing[mesh].direction).collect();
+            let joined = Self { meshes: own.clone(), gears, bores, directions, contacts: JoinedContacts::new() };
+            (!(joined.gears.is_empty() && joined.bores.is_empty())).then_some(joined)
         };
         (0..meshes.len()).filter_map(of_group).collect()
     }
 
-    /// Forces of its meshes at displacements of all meshes, put at their places among all replies, and how they follow each
-    /// other's gears.
+    /// Forces of its meshes and bearings at displacements of all meshes and of all seats, put at their places among all.
     pub fn evaluate(
         &mut self,
         (meshes, elements): (&[GearMesh], &mut [Box<dyn MeshElement>]),
-        displacements: &[Vector12],
-        replies: &mut [Option<MeshForces>],
-    ) -> Result<Vec<AcrossMeshes>, GearboxError> {
-        let Self { meshes: own, gears, contacts } = self;
+        (structure, supports): (&Structure, &[CompliantBearing]),
+        (displacements, y): (&[Vector12], &DVector<f64>),
+        found: JoinedForces<'_>,
+    ) -> Result<(), GearboxError> {
+        let Self { meshes: own, gears, bores, directions, contacts } = self;
         let joined = elements.iter_mut().enumerate().filter(|(i, _)| own.binary_search(i).is_ok());
         let mut exact: Vec<&mut ExactMesh> =
             joined.filter_map(|(_, element)| element.to_join()?.downcast_mut()).collect();
@@ -88,30 +124,77 @@ impl JoinedMeshes {
             let of = gear.contacts.map(|k| &*exact[k]);
             gear.find(of).map_err(|source| at_mesh(&meshes[own[gear.contacts[1]]], source))?;
         }
+        for bore in bores.iter_mut() {
+            stand(bore, (&exact, directions), (structure, supports))
+                .map_err(|source| at_mesh(&meshes[own[bore.meshes[0].0]], source))?;
+        }
         let common: Vec<CommonGear<'_>> = gears.iter().filter_map(SharedGear::common).collect();
         let poses: Vec<_> = exact.iter().map(|mesh| mesh.poses).collect();
+        let bearings: Vec<usize> = bores.iter().map(|bore| bore.bearing).collect();
+        let laws: Vec<_> =
+            bearings.iter().map(|&at| move |_: usize, force: f64| supports[at].law().lamina_under(force)).collect();
+        let pressing = bores.iter_mut().zip(&laws).filter_map(|(bore, law)| {
+            let moved = supports[bore.bearing].seen(y);
+            bore.pressed(&moved, law)
+        });
+        let mut pressing: Vec<_> = pressing.collect();
         let mut all: Vec<_> = exact.iter_mut().map(|mesh| &mut mesh.contact).collect();
-        let found = contacts.evaluate(&mut all, &poses, &common);
-        found.map_err(|source| at_mesh(&meshes[own[0]], exact[0].failed(source)))?;
+        let solved = contacts.evaluate(&mut all, &poses, &common, &mut pressing);
+        drop(pressing);
+        solved.map_err(|source| at_mesh(&meshes[own[0]], exact[0].failed(source)))?;
         let turns: Vec<_> =
             exact.iter().zip(own.iter()).map(|(mesh, &i)| mesh.generalised(&displacements[i])).collect();
-        let mut across = Vec::new();
-        for (k, (mesh, &i)) in exact.iter().zip(own.iter()).enumerate() {
-            replies[i] = Some(mesh.forces(&displacements[i]));
-            for (m, &by) in own.iter().enumerate().filter(|(m, _)| *m != k) {
-                let tangent = contacts.tangent(k, m);
-                let mut tangent = SMatrix::from_fn(|p, q| tangent[p][q]);
-                if let Some(g) = &turns[k] {
-                    tangent = g * tangent;
-                }
-                if let Some(g) = &turns[m] {
-                    tangent *= g.transpose();
-                }
-                across.push(AcrossMeshes { of: i, by, tangent });
-            }
+        for (mesh, &i) in exact.iter().zip(own.iter()) {
+            found.replies[i] = Some(mesh.forces(&displacements[i]));
         }
-        Ok(across)
+        let first = own.len();
+        for (k, bore) in bores.iter().enumerate() {
+            let tangent = contacts.tangent(first + k, first + k);
+            let stiffness = nalgebra::Matrix5::from_fn(|p, q| -tangent[p][q]);
+            found.pressed[bore.bearing] = Some(bore.reply(&supports[bore.bearing]).stiff(stiffness));
+        }
+        let count = first + bores.len();
+        let number = |k: usize| if k < first { own[k] } else { meshes.len() + bearings[k - first] };
+        for (k, m) in (0..count).flat_map(|k| (0..count).map(move |m| (k, m))).filter(|(k, m)| k != m) {
+            let tangent = contacts.tangent(k, m);
+            let mut tangent = SMatrix::from_fn(|p, q| tangent[p][q]);
+            if let Some(Some(g)) = turns.get(k) {
+                tangent = g * tangent;
+            }
+            if let Some(Some(g)) = turns.get(m) {
+                tangent *= g.transpose();
+            }
+            found.across.push(AcrossMeshes { of: number(k), by: number(m), tangent });
+        }
+        Ok(())
     }
+}
+
+/// Makes what is known of a bore where its gear stands.
+fn stand(
+    bore: &mut BoreOfGear,
+    (exact, directions): (&[&mut ExactMesh], &[f64]),
+    (structure, supports): (&Structure, &[CompliantBearing]),
+) -> Result<(), GearboxError> {
+    let support = &supports[bore.bearing];
+    let failed = |gear: usize, failure: BoreFailure| match failure {
+        BoreFailure::Reduction(source) => {
+            let gear = ["pinion", "wheel"][gear];
+            GearboxError::from(StaticError::from(ContactError::Reduction { gear, source }))
+        }
+        BoreFailure::Bore(source) => {
+            GearboxError::Bore { bearing: structure.bearings[support.bearing].name.clone(), source }
+        }
+    };
+    let end = bore.meshes[0].1;
+    let see = |&(k, end): &(usize, usize)| {
+        let (reducer, window) = reduced(&*exact[k], end)?;
+        let cyclic = if reducer.is_cyclic() { 0.0 } else { reducer.frame_angle(window) };
+        Some(SeenBy { reducer, window, angle: directions[k] + exact[k].frame_angle(end) - cyclic })
+    };
+    let seen: Option<Vec<SeenBy<'_>>> = bore.meshes.iter().map(see).collect();
+    let seen = seen.ok_or_else(|| failed(end, BoreFailure::Reduction(reduction::ReductionError::OtherReduction)))?;
+    bore.stand(support, &seen).map_err(|failure| failed(end, failure))
 }
 
 impl SharedGear {

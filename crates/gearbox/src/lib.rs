@@ -20,6 +20,7 @@
 mod assembly;
 mod balance;
 mod bearing;
+mod bore_error;
 mod campbell;
 mod compliant_support;
 mod elastic_body;
@@ -40,6 +41,7 @@ mod modal_contact;
 mod modal_energy;
 pub mod motion;
 mod position;
+mod pressed_bore;
 mod rigid_motions;
 pub mod rolling_bearing;
 mod search;
@@ -59,6 +61,7 @@ mod whirl;
 
 pub use assembly::Assembly;
 pub use bearing::Bearing;
+pub use bore_error::BoreError;
 pub use elastic_body::ElasticBody;
 pub use elastic_gears::elastic_gears;
 pub use error::GearboxError;

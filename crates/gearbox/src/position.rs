@@ -20,6 +20,8 @@ pub(crate) struct Solved {
     pub replies: Vec<MeshForces>,
     /// Replies of bearings with rolling elements.
     pub pressed: Vec<RollingReply>,
+    /// Forces of the laminae of each bearing that presses the bore of a gear, N.
+    pub laminae: Vec<Vec<f64>>,
     /// Forces on the gears, common axes.
     pub forces: Vec<Vector12>,
     pub slices: Vec<Vec<SliceResult>>,
@@ -28,7 +30,7 @@ pub(crate) struct Solved {
 
 /// Everything that is known of it.
 pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPosition {
-    let Solved { angle, cycles, found, replies, pressed, forces, slices, roots } = solved;
+    let Solved { angle, cycles, found, replies, pressed, laminae, forces, slices, roots } = solved;
     let seats = &gearbox.seats.basis * &found.displacements;
     let mut all = gearbox.seats.all(&seats);
     for (shaft, _) in gearbox.held.iter().enumerate().filter(|(_, held)| **held) {
@@ -82,6 +84,7 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
         shafts: (0..gearbox.held.len()).map(|shaft| shaft_line(gearbox, shaft, &all)).collect(),
         bearings,
         rolling,
+        laminae,
         meshes,
         input_torque,
         held_reactions: held,

@@ -9,7 +9,8 @@ use crate::{
     GearboxError, GearboxPosition, MeshForces, StaticGearbox, Vector12,
     joined_meshes::AcrossMeshes,
     position::{Solved, position},
-    search::Trial,
+    rolling_bearing::RollingReply,
+    search::{Trial, coordinates},
     train::at_mesh,
 };
 
@@ -35,7 +36,7 @@ impl StaticGearbox {
             }
             other => other,
         };
-        let Trial { found, mut replies, across, pressed } = sought?;
+        let Trial { found, mut replies, across, mut pressed } = sought?;
         let Self { elements, meshes, last, .. } = self;
         let mut slices: Vec<Vec<SliceResult>> = elements.iter().map(|e| e.slices()).collect();
         let mut roots = Vec::with_capacity(elements.len());
@@ -45,26 +46,45 @@ impl StaticGearbox {
         }
         last.insert(0, (angle, found.displacements.clone()));
         last.truncate(2);
-        self.follow((&mut replies, &across), (&mut slices, &mut roots), &found.last_step);
+        let moved = Moved { step: &found.last_step, from: &found.displacements - &found.last_step };
+        self.follow((&mut replies, &across, &mut pressed), (&mut slices, &mut roots), &moved);
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
-        Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices, roots }))
+        let laminae = self.laminae();
+        Ok(position(self, Solved { angle, cycles, found, replies, pressed, laminae, forces, slices, roots }))
+    }
+
+    /// Forces of the laminae of each bearing that presses the bore of a gear, N; none of the others.
+    fn laminae(&self) -> Vec<Vec<f64>> {
+        let mut all = vec![Vec::new(); self.assembly.structure().bearings.len()];
+        for bore in self.joined.iter().flat_map(|joined| &joined.bores) {
+            all[self.compliant_support[bore.bearing].bearing].clone_from(&bore.forces);
+        }
+        all
     }
 
     /// Forces of the meshes after a last small step. Where the load lies does not change in it: forces of the slices, their
     /// sum and stress in fillets go with the moment on gear 2, pressures as its square root.
     fn follow(
         &self,
-        (replies, across): (&mut [MeshForces], &[AcrossMeshes]),
+        (replies, across, pressed): (&mut [MeshForces], &[AcrossMeshes], &mut [RollingReply]),
         (slices, roots): (&mut [Vec<SliceResult>], &mut [[Vec<FilletField>; 2]]),
-        step: &DVector<f64>,
+        moved: &Moved<'_>,
     ) {
-        let steps: Vec<Vector12> = self.to_gears.iter().map(|to_gears| to_gears * step).collect();
+        let y = &self.seats.basis * &moved.from;
+        let by = |part: usize| -> Vector12 {
+            coordinates(part, &self.to_gears, (&self.compliant_support, &self.seats.basis, &y)) * moved.step
+        };
+        let steps: Vec<Vector12> = self.to_gears.iter().map(|to_gears| to_gears * moved.step).collect();
+        for own in across.iter().filter(|own| own.of >= replies.len()) {
+            let followed = own.tangent * by(own.by);
+            pressed[own.of - replies.len()].force += followed.fixed_rows::<5>(0);
+        }
         for (i, ((reply, slices), roots)) in replies.iter_mut().zip(slices).zip(roots).enumerate() {
             let before = reply.force[11];
             reply.force += reply.tangent * steps[i];
             for own in across.iter().filter(|own| own.of == i) {
-                reply.force += own.tangent * steps[own.by];
+                reply.force += own.tangent * by(own.by);
             }
             let grown = reply.force[11] / before;
             if grown > 0.0 && grown.is_finite() {
@@ -82,6 +102,12 @@ impl StaticGearbox {
     fn in_common_axes(&self, replies: &[MeshForces]) -> Vec<Vector12> {
         self.places.iter().zip(replies).map(|((_, turn), reply)| turn * reply.force).collect()
     }
+}
+
+/// A last small step, and where it began.
+struct Moved<'a> {
+    step: &'a DVector<f64>,
+    from: DVector<f64>,
 }
 
 /// Where the last positions lead to at an angle: on along the line through both, as far as they are apart; else where

@@ -150,9 +150,13 @@ impl StaticGearbox {
     /// i, j: slices of all joined meshes; C_12: compliance between the windows of the gear
     /// ([`reduction::GearReducer::compliance_between`]). [`StaticGearbox::solve`] fails where a gear is not reduced from the
     /// same mesh in all of its meshes. Theory (38a).
+    ///
+    /// Rolling elements in the bore of such a gear ([`crate::Bearing::bore_of`]) press its body as well, in the same contact
+    /// problem, theory (38b); without it, and where their gear is in no exact mesh, their rings are rigid.
     #[must_use]
     pub fn joined(mut self) -> Self {
-        self.joined = JoinedMeshes::all(&self.meshes, self.train.meshing(), &mut self.elements);
+        let meshes = (&self.meshes[..], self.train.meshing());
+        self.joined = JoinedMeshes::all(meshes, &mut self.elements, &self.compliant_support);
         self
     }
 

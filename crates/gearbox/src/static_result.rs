@@ -93,6 +93,9 @@ pub struct GearboxPosition {
     pub bearings: Vec<BearingState>,
     /// Details of those bearings that have rolling elements.
     pub rolling: Vec<Option<RollingState>>,
+    /// Forces of the laminae of those that press the bore of a gear, roller by roller of each row in turn, N
+    /// ([`crate::rolling_bearing::RollingBearing::zone_of`]); none of the others.
+    pub laminae: Vec<Vec<f64>>,
     /// Meshes in their order.
     pub meshes: Vec<MeshState>,
     /// Torque that holds the input, N mm about +z.

@@ -199,6 +199,7 @@ impl Structure {
             }
         }
         self.check_seats()?;
+        self.check_bores()?;
         if let Some(housing) = &self.housing {
             let (bearings, wanted) = (self.bearings.len(), 6 * self.bearings.len());
             if let Some(&found) = [housing.nrows(), housing.ncols()].iter().find(|n| **n != wanted) {

@@ -102,6 +102,12 @@ impl TurnedSeat {
         self.of_ends() * seen.slopes * Vector12::from_fn(|k, _| step[self.place(k)])
     }
 
+    /// Adds the slopes of the displacement over those of all seats.
+    pub fn add_slopes(&self, seen: &Seen, slopes: &mut DMatrix<f64>) {
+        let own = self.of_ends() * seen.slopes;
+        (0..12).for_each(|k| (0..6).for_each(|i| slopes[(i, self.place(k))] += own[(i, k)]));
+    }
+
     /// Force and moment on both ends in common axes, of those (N, N mm) on the shaft in the seat's axes.
     pub fn forces(&self, seen: &Seen, force: &Vector6<f64>) -> Vector12 {
         seen.slopes.tr_mul(&self.of_ends().tr_mul(force))

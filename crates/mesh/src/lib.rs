@@ -7,6 +7,7 @@ mod bolts;
 mod bore;
 mod bore_coupling;
 mod bore_fit;
+mod bore_grid;
 mod check;
 pub mod element;
 pub mod error;
@@ -30,6 +31,7 @@ mod tips;
 
 pub use bolts::Bolts;
 pub use bore_coupling::BoreCoupling;
+pub use bore_grid::BoreGrid;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;

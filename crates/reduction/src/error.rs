@@ -110,6 +110,12 @@ pub enum ReductionError {
     /// Two reductions of a gear that is in several meshes.
     #[error("a gear in several meshes has another mesh, material, bore or way of reduction in one of them")]
     OtherReduction,
+    /// Pressures on a bore that does not take them.
+    #[error("rolling elements press a bore with the coupling `distributing`, and this one is `{coupling}`")]
+    NoBorePressures {
+        /// Coupling of the bore.
+        coupling: &'static str,
+    },
     /// Normal modes of one gear were requested on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
@@ -167,6 +173,9 @@ impl ReductionError {
             Self::NoSectorOfLayers => None,
             Self::OtherReduction => {
                 Some("give it the same mesh, `[mesher]`, bore, material and `reduction` in the scenes of all its meshes".into())
+            }
+            Self::NoBorePressures { .. } => {
+                Some("give the bore of the gear `coupling = \"distributing\"` in the scenes of all its meshes".into())
             }
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),

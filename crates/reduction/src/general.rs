@@ -114,6 +114,38 @@ impl GeneralGear {
         Ok(compliance)
     }
 
+    /// Forces on nodes of the mesh as forces on freedoms.
+    pub(crate) fn forces_on(&self, loads: &[Vec<(u32, [f64; 3])>]) -> Vec<Vec<(usize, f64)>> {
+        let on = |&(node, force): &(u32, [f64; 3])| {
+            let at = self.dofs.position(node).map(|place| 3 * place);
+            at.into_iter().flat_map(move |at| (0..3).map(move |axis| (at + axis, force[axis])))
+        };
+        loads.iter().map(|load| load.iter().flat_map(on).filter(|own| own.1 != 0.0).collect()).collect()
+    }
+
+    /// Work of forces `of` on the displacements under forces `under`, each on freedoms.
+    pub(crate) fn between(
+        &self,
+        of: &[Vec<(usize, f64)>],
+        under: &[Vec<(usize, f64)>],
+    ) -> Result<Mat<f64>, ReductionError> {
+        let mut wanted: Vec<usize> = of.iter().flatten().map(|part| part.0).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let number = |dof: usize| wanted.partition_point(|known| *known < dof);
+        let of: Vec<Vec<(usize, f64)>> =
+            of.iter().map(|load| load.iter().map(|&(dof, f)| (number(dof), f)).collect()).collect();
+        let mut work = Mat::<f64>::zeros(of.len(), under.len());
+        for start in (0..under.len()).step_by(COLUMNS) {
+            let width = (under.len() - start).min(COLUMNS);
+            let field = self.under_forces(&under[start..start + width], &wanted)?;
+            let block =
+                Mat::from_fn(of.len(), width, |i, j| of[i].iter().map(|&(at, f)| f * field[(at, j)]).sum::<f64>());
+            work.as_mut().subcols_mut(start, width).copy_from(&block);
+        }
+        Ok(work)
+    }
+
     /// Rows `wanted` of the displacements under unit forces on some coordinates of a window.
     fn under_loads(&self, loads: &[Load], columns: Range<usize>, wanted: &[usize]) -> Result<Mat<f64>, ReductionError> {
         let column = |c: usize| -> Vec<(usize, f64)> {
@@ -121,8 +153,13 @@ impl GeneralGear {
             loads[c / 3].iter().filter_map(at).collect()
         };
         let forces: Vec<Vec<(usize, f64)>> = columns.map(column).collect();
+        self.under_forces(&forces, wanted)
+    }
+
+    /// Rows `wanted` of the displacements under forces on freedoms.
+    fn under_forces(&self, forces: &[Vec<(usize, f64)>], wanted: &[usize]) -> Result<Mat<f64>, ReductionError> {
         if self.seat.is_none() {
-            return Ok(self.factor.solve_few(&forces, wanted)?);
+            return Ok(self.factor.solve_few(forces, wanted)?);
         }
         let mut all = Mat::zeros(self.factor.n(), forces.len());
         for (j, force) in forces.iter().enumerate() {

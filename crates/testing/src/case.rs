@@ -81,6 +81,11 @@ impl Case {
 
     /// Both gears, reduced to the flanks and the window of the options.
     pub fn reduced_gears(&self, options: &StaticOptions) -> [ElasticGear; 2] {
+        self.reduced_gears_of(options, [Material::STEEL; 2])
+    }
+
+    /// The same of other materials.
+    pub fn reduced_gears_of(&self, options: &StaticOptions, materials: [Material; 2]) -> [ElasticGear; 2] {
         let first = StaticModel::first_teeth(&self.pair, options).unwrap();
         [0, 1].map(|i| {
             let o = ReductionOptions {
@@ -89,7 +94,7 @@ impl Case {
                 first: first[i],
                 elements: self.elements,
             };
-            ElasticGear::Reduced(GearReducer::new(self.meshes[i].clone(), Material::STEEL, o).unwrap())
+            ElasticGear::Reduced(GearReducer::new(self.meshes[i].clone(), materials[i], o).unwrap())
         })
     }
 

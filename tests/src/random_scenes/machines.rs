@@ -112,7 +112,7 @@ fn change(d: &mut Draft) {
 fn names_of(key: &str) -> Option<&'static str> {
     match key.rsplit('.').next()? {
         "shaft" | "in_shaft" | "input" | "around" => Some("shaft"),
-        "pinion" | "wheel" => Some("gear"),
+        "pinion" | "wheel" | "in_bore_of" => Some("gear"),
         _ => None,
     }
 }

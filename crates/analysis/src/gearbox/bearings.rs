@@ -147,11 +147,14 @@ impl LifeLimits {
 fn life(
     own: &GearboxRolling,
     law: &RollingBearing,
-    states: &[&RollingState],
+    states: &[(&RollingState, &[f64])],
     turns: &BearingTurns,
 ) -> Option<BearingLife> {
     let rating = dynamic_rating(own, law.elements())?;
-    let damage = |s: &&RollingState| law.damage(&Vector5::from_fn(|k, _| s.displacement[k]), rating);
+    let damage = |&(s, laminae): &(&RollingState, &[f64])| match laminae {
+        [] => law.damage(&Vector5::from_fn(|k, _| s.displacement[k]), rating),
+        laminae => law.damage_of(laminae, rating),
+    };
     let used = states.iter().map(damage).sum::<f64>() / states.len().max(1) as f64;
     if used.is_nan() || used <= 0.0 {
         return None;
@@ -181,6 +184,7 @@ fn bearing(own: &GearboxBearing) -> Result<Bearing, GearboxError> {
     let stiffness = Matrix6::from_fn(|i, j| own.stiffness[i][j]);
     let linear = Bearing {
         outer: own.in_shaft,
+        bore_of: own.in_bore_of,
         offset: own.seat_offset.into(),
         damping: Matrix6::from_fn(|i, j| if i == j && i < 3 { own.damping[i] } else { 0.0 }),
         ..Bearing::linear(&own.name, own.shaft, own.position, stiffness)
@@ -256,7 +260,12 @@ pub(super) fn rolling_load(
     (i, turns): (usize, Option<BearingTurns>),
 ) -> Option<RollingLoad> {
     let (rolling, law) = (own.rolling.as_ref()?, bearing.law.as_ref()?);
-    let states: Vec<&RollingState> = positions.iter().filter_map(|p| p.rolling.get(i)?.as_ref()).collect();
+    let state = |p| -> Option<(&RollingState, &[f64])> {
+        let p: &GearboxPosition = p;
+        Some((p.rolling.get(i)?.as_ref()?, p.laminae.get(i)?))
+    };
+    let on_elements: Vec<(&RollingState, &[f64])> = positions.iter().filter_map(state).collect();
+    let states: Vec<&RollingState> = on_elements.iter().map(|own| own.0).collect();
     let share = 1.0 / states.len().max(1) as f64;
     let mean = share * states.iter().map(|s| s.stiffness).sum::<Matrix6<f64>>();
     let most = |of: &dyn Fn(&RollingState) -> f64| states.iter().map(|s| of(s)).fold(0.0, f64::max);
@@ -274,10 +283,10 @@ pub(super) fn rolling_load(
         element_force: most(&|s| s.element_force),
         pressure,
         loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
-        zone: mean_zone(law, &states),
+        zone: mean_zone(law, &on_elements),
         speed_rpm: turns.map(|turns| turns.speed_rpm),
         spectrum_life_h: None,
-        life: turns.as_ref().and_then(|turns| life(rolling, law, &states, turns)),
+        life: turns.as_ref().and_then(|turns| life(rolling, law, &on_elements, turns)),
         loss_w: turns.and_then(|turns| {
             let (speed, viscosity) = (turns.speed_rpm, turns.viscosity?);
             let lost = |s: &&RollingState| {
@@ -290,8 +299,11 @@ pub(super) fn rolling_load(
 }
 
 /// Rolling elements with the means of their forces; none without a state.
-fn mean_zone(law: &RollingBearing, states: &[&RollingState]) -> Vec<ElementLoad> {
-    let mut zones = states.iter().map(|s| law.load_zone(&s.displacement.fixed_rows::<5>(0).into_owned()));
+fn mean_zone(law: &RollingBearing, states: &[(&RollingState, &[f64])]) -> Vec<ElementLoad> {
+    let mut zones = states.iter().map(|(s, laminae)| match laminae {
+        [] => law.load_zone(&s.displacement.fixed_rows::<5>(0).into_owned()),
+        laminae => law.zone_of(laminae),
+    });
     let Some(mut mean) = zones.next() else { return Vec::new() };
     zones.for_each(|zone| mean.iter_mut().zip(zone).for_each(|(sum, own)| sum.force += own.force));
     mean.iter_mut().for_each(|own| own.force /= states.len() as f64);

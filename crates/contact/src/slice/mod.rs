@@ -21,7 +21,9 @@ pub(crate) use flank_pair::{FlankPair, SlicePoint};
 pub use flank_pair::{Slice, SliceFlank, slice};
 pub(crate) use half_teeth::{HalfTeeth, TableFlanks};
 pub use hint::SliceHint;
-pub use mesh_contact::{CommonGear, ContactWork, EvaluationLevel, JoinedContacts, MeshContact};
+pub use mesh_contact::{
+    Approach, CommonGear, ContactWork, EvaluationLevel, FlanksOfBore, JoinedContacts, MeshContact, PressedBore,
+};
 pub use rigid::{NearestPoint, RigidFlanks};
 pub use same_slices::SameSlices;
 pub use set::SliceSet;

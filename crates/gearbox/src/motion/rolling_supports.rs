@@ -146,7 +146,12 @@ impl RollingSupports {
         let mut energy = 0.5 * y.dot(&by_springs) - preload.dot(&y) + self.stored;
         let mut force = preload - by_springs;
         let mut stiffness = -&self.supports.stiffness;
-        let replies: Vec<_> = self.bearings.iter().map(|own| own.add(&y, &mut force, &mut stiffness)).collect();
+        let reply = |own: &CompliantBearing| {
+            let reply = own.reply(&y);
+            own.add(&reply, &y, &mut force, &mut stiffness);
+            reply
+        };
+        let replies: Vec<_> = self.bearings.iter().map(reply).collect();
         energy += replies.iter().map(|r| r.energy).sum::<f64>();
         Pressed { at: y, energy, force, stiffness: -stiffness, replies }
     }

@@ -14,7 +14,7 @@ use super::{
 
 /// One row.
 #[derive(Debug, Clone, PartialEq)]
-enum LoadedRow {
+pub(super) enum LoadedRow {
     Balls(BallRow),
     Rollers(RollerRow),
 }
@@ -64,7 +64,7 @@ impl ElementLoad {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RollingBearing {
     elements: RollingElements,
-    rows: Vec<LoadedRow>,
+    pub(super) rows: Vec<LoadedRow>,
     seat: AxialSeat,
 }
 
@@ -157,7 +157,7 @@ impl RollingBearing {
         };
         let of_row = |(row, own): (usize, &LoadedRow)| {
             let forces = forces(own);
-            let pitch = TAU / forces.len() as f64;
+            let pitch = pitch_of(forces.len());
             forces.into_iter().enumerate().map(move |(j, force)| ElementLoad { row, angle: j as f64 * pitch, force })
         };
         self.rows.iter().enumerate().flat_map(of_row).collect()
@@ -186,7 +186,7 @@ impl RollingBearing {
             RollingElements::Rollers(rollers) => {
                 let capacity = LaminaCapacity::new(rollers, rows, dynamic_rating);
                 let of = |row: &LoadedRow| match row {
-                    LoadedRow::Rollers(row) => (0..LAMINAE).map(|k| capacity.used(k, row.forces(k, &place))).sum(),
+                    LoadedRow::Rollers(row) => (0..LAMINAE).map(|k| capacity.used(k, row.forces(k, &place), 0)).sum(),
                     LoadedRow::Balls(_) => 0.0,
                 };
                 self.rows.iter().map(of).sum::<f64>().powf(8.0 / 9.0)
@@ -207,6 +207,11 @@ impl RollingBearing {
         }
         with_turn(&self.seat.of(&reply.stiffness))
     }
+}
+
+/// Angle between neighbours of so many elements, rad.
+pub(super) fn pitch_of(elements: usize) -> f64 {
+    TAU / elements as f64
 }
 
 /// How far a row has to be pressed along the axis until it carries a force.

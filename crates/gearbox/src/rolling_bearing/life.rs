@@ -72,14 +72,15 @@ impl LaminaCapacity {
         Self([ring(0.378, x), ring(0.364, 1.0 / x)])
     }
 
-    /// (q_kei/q_ci)^(9/2) + (q_kee/q_ce)^(9/2) of lamina k, counted from 0.
-    pub fn used(&self, k: usize, forces: impl Iterator<Item = f64>) -> f64 {
+    /// (q_kei/q_ci)^(9/2) + (q_kee/q_ce)^(9/2) of lamina k, counted from 0. The load stands still, and the inner ring turns
+    /// under it (0), or the outer one (1).
+    pub fn used(&self, k: usize, forces: impl Iterator<Item = f64>, turning: usize) -> f64 {
         let n = LAMINAE as f64;
         let from_middle = (2.0 * k as f64 + 1.0 - n).abs() / (2.0 * n - 2.0);
         // Minus infinity in the middle: nothing is added there.
         let edge = 1.0 - 0.01 / (1.985 * from_middle).ln();
         let all: Vec<f64> = forces.map(|force| edge * force).collect();
-        let of = |i: usize| (equivalent(all.iter().copied(), ROLLERS[i]) / self.0[i]).powf(4.5);
+        let of = |i: usize| (equivalent(all.iter().copied(), ROLLERS[i ^ turning]) / self.0[i]).powf(4.5);
         of(0) + of(1)
     }
 }

@@ -7,6 +7,7 @@
 //! | `catalogue`, `dimensions` | the same estimated from bore, outer diameter and static load rating, or width |
 //! | `ball`, `roller` | one row of balls, of rollers: energy, force and tangent |
 //! | `reply` | force, moment and tangent of a bearing |
+//! | `laminae` | rollers lamina by lamina, on a bore that gives way |
 //! | `law` | all rows together: [`RollingBearing`] |
 //! | `life`, `rating` | how long it lasts, and how far it is from dents |
 //! | `friction` | how much power it loses |
@@ -23,6 +24,7 @@ mod error;
 mod friction;
 mod geometry;
 mod hertz;
+mod laminae;
 mod law;
 mod life;
 mod rating;
@@ -37,6 +39,7 @@ pub use error::RollingBearingError;
 pub use friction::RollingFriction;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
 pub use hertz::PointContact;
+pub(crate) use laminae::Cylinders;
 pub use law::{ElementLoad, RollingBearing};
 pub use life::LifeModification;
 pub use reply::RollingReply;

@@ -45,8 +45,7 @@ impl RollerRow {
     /// delta_k = n . (u + theta x r_k) - gap - 2 P(x_k),   q = c delta^(10/9),   V = (9/19) c delta^(19/9)
     /// ```
     pub fn add(&self, d: &Vector5<f64>, reply: &mut RollingReply) {
-        let g = &self.geometry;
-        for j in 0..g.elements {
+        for j in 0..self.geometry.elements {
             let (mut force, mut largest) = (0.0, 0.0f64);
             for k in 0..LAMINAE {
                 let (lever, approach) = self.approach(j, k, d);
@@ -61,7 +60,7 @@ impl RollerRow {
                 }
             }
             if force > 0.0 {
-                reply.count(force, self.pressure(largest * LAMINAE as f64 / g.length));
+                reply.count(force, self.pressure_under(largest));
             }
         }
     }
@@ -85,6 +84,28 @@ impl RollerRow {
     fn approach(&self, j: usize, k: usize, d: &Vector5<f64>) -> (Vector5<f64>, f64) {
         let lever = self.lever(j, k);
         (lever, lever.dot(d) - self.gaps[k])
+    }
+
+    /// Height of its middle over that of the bearing, mm.
+    pub fn position(&self) -> f64 {
+        self.row.position
+    }
+
+    /// c of one lamina, N/mm^(10/9).
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Laminae of cylindrical rollers, roller by roller: number of the roller, height over the middle of the bearing, and gap,
+    /// mm.
+    pub fn laminae(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+        let height = |k: usize| self.row.position + place(&self.geometry, k);
+        (0..self.geometry.elements).flat_map(move |j| (0..LAMINAE).map(move |k| (j, height(k), self.gaps[k])))
+    }
+
+    /// Pressure where a lamina presses by a force (N), MPa.
+    pub fn pressure_under(&self, force: f64) -> f64 {
+        self.pressure(force * LAMINAE as f64 / self.geometry.length)
     }
 
     /// Stiffness with every roller evenly loaded by a force, N.

@@ -37,6 +37,7 @@ mod pair_course;
 mod pair_motion;
 mod pairs;
 mod planets;
+mod pressed_bores;
 mod rest;
 mod rolling;
 mod rolling_gearbox;

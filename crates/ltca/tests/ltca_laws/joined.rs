@@ -102,7 +102,7 @@ fn solve(meshes: &mut [Mesh; 2], common: &[CommonGear<'_>]) -> JoinedContacts {
     let mut joined = JoinedContacts::new();
     let poses = [meshes[0].poses, meshes[1].poses];
     let mut contacts = meshes.each_mut().map(|mesh| &mut mesh.contact);
-    joined.evaluate(&mut contacts, &poses, common).unwrap();
+    joined.evaluate(&mut contacts, &poses, common, &mut []).unwrap();
     joined
 }
 

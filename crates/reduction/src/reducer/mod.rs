@@ -1,6 +1,7 @@
 //! One condensation per gear, and any of its windows. Theory (11), (12).
 
 mod asked;
+mod bore_pressures;
 mod condense;
 mod options;
 mod parts;

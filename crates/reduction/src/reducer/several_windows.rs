@@ -73,7 +73,7 @@ impl GearReducer {
     }
 
     /// Unit loads of a window's coordinates where they stand on the mesh of a whole gear, along its own axes.
-    fn material_loads(&self, window: &Window) -> Result<Vec<Load>, ReductionError> {
+    pub(super) fn material_loads(&self, window: &Window) -> Result<Vec<Load>, ReductionError> {
         let on = |(node, weight): &(u32, f64)| (self.material_node(window, *node), *weight);
         Ok(self.loads(window)?.iter().map(|load| load.iter().map(on).collect()).collect())
     }

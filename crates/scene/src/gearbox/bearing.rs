@@ -15,6 +15,7 @@ pub(super) fn bearing(
     s: &Source<'_>,
     table: &Spanned<RawBearing>,
     shafts: &[(String, f64)],
+    gears: &[String],
 ) -> Checked<GearboxBearing> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[bearing]]", (&raw.shaft, &raw.position_mm), shafts)?;
@@ -38,9 +39,11 @@ pub(super) fn bearing(
         }
     };
     let in_shaft = raw.in_shaft.as_ref().map(|word| shaft_called(s, "in_shaft", word, shafts)).transpose()?;
+    let known: Vec<(&str, usize)> = gears.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
+    let in_bore_of = raw.in_bore_of.as_ref().map(|word| s.one_of("in_bore_of", word, &known)).transpose()?;
     let offset = list(s, "seat_offset_um", &raw.seat_offset_um, 3, [-1e4, 1e4])?;
     let seat_offset = offset.map_or([0.0; 3], |own| [1e-3 * own[0], 1e-3 * own[1], 1e-3 * own[2]]);
-    Ok(GearboxBearing { name, shaft, position, in_shaft, seat_offset, stiffness, damping, rolling })
+    Ok(GearboxBearing { name, shaft, position, in_shaft, in_bore_of, seat_offset, stiffness, damping, rolling })
 }
 
 /// A rolling bearing has no stiffness of its own.

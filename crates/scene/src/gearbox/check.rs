@@ -16,7 +16,7 @@ use super::parts::{all, distinct, few, mesh_name, place, place_of_gear};
 use super::planets::written_out;
 use super::rating::rating;
 use super::schema::{GearboxDrive, MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
-use super::seats::seats;
+use super::seats::{in_bores, seats};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
@@ -40,11 +40,14 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let mut shafts = all(&raw.shaft, |t| shaft(s, t))?;
     let names: Vec<(String, f64)> = shafts.iter().map(|x| (x.name.clone(), length(x))).collect();
     distinct(s, "shafts", &raw.shaft, names.iter().map(|n| n.0.as_str()))?;
-    let mut bearings = all(&raw.bearing, |t| bearing(s, t, &names))?;
+    let called: Vec<String> =
+        raw.gear.iter().filter_map(|t| Some(t.get_ref().name.as_ref()?.get_ref().clone())).collect();
+    let mut bearings = all(&raw.bearing, |t| bearing(s, t, &names, &called))?;
     written.place(s, &raw.planets, &mut shafts, &mut bearings)?;
     seats(s, &raw, (&shafts, &bearings))?;
     let gears = all(&raw.gear, |t| gear(s, t, &names))?;
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
+    in_bores(s, &raw, (&bearings, &gears))?;
     let called_meshes: Vec<String> = raw.mesh.iter().map(|table| mesh_name(table.get_ref())).collect();
     let means = |own: &PairSetting, mesh: usize| written.means(&own.mesh, mesh, &called_meshes[mesh]);
     if let Some(none) = of_pairs.iter().find(|own| !(0..called_meshes.len()).any(|mesh| means(own, mesh))) {

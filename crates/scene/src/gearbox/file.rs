@@ -176,6 +176,8 @@ pub struct GearboxBearing {
     pub position: f64,
     /// Index of the shaft that contains its seat; `None`: the housing.
     pub in_shaft: Option<usize>,
+    /// Index of the gear whose bore its rollers press; `None`: rigid rings.
+    pub in_bore_of: Option<usize>,
     /// Displacement of its seat from the nominal position, mm.
     pub seat_offset: [f64; 3],
     /// Stiffness for displacements x, y, z and rotations about them: N/mm, N, N mm.

@@ -106,6 +106,7 @@ pub(super) fn written_out(s: &Source<'_>, raw: RawGearbox) -> Checked<(RawGearbo
                 name: numbered(&raw.name, group, planet),
                 shaft: numbered(&raw.shaft, group, planet),
                 in_shaft: numbered(&raw.in_shaft, seat, planet),
+                in_bore_of: numbered(&raw.in_bore_of, of_gear(&raw.in_bore_of), planet),
                 ..raw.clone()
             };
             written.bearing.push(copy(own, named));

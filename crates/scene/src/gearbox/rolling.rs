@@ -17,6 +17,7 @@ type Place = fn(&RawBearing) -> Option<Range<usize>>;
 
 /// Keys of rolling bearings alone.
 pub(super) const TYPED: &[(&str, Place)] = &[
+    ("in_bore_of", |r| r.in_bore_of.as_ref().map(Spanned::span)),
     ("bore_mm", |r| r.bore_mm.as_ref().map(Spanned::span)),
     ("outer_diameter_mm", |r| r.outer_diameter_mm.as_ref().map(Spanned::span)),
     ("static_rating_kn", |r| r.static_rating_kn.as_ref().map(Spanned::span)),
@@ -69,6 +70,7 @@ impl RollingKind {
             "element_length_mm" | "profile" => !self.has_balls(),
             "contact_angle_deg" | "axial_clearance_um" | "preload_n" | "arrangement" => self.has_angle(),
             "radial_clearance_um" => !self.has_angle(),
+            "in_bore_of" => self == Self::CylindricalRoller,
             _ => true,
         }
     }

@@ -112,6 +112,7 @@ table! {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where its middle is, mm from the shaft's z = 0, up to its length";
         in_shaft: text(), "name of the shaft that its seat is part of: a shaft of the same axis, or one that stands, as a carrier; default: the housing";
+        in_bore_of: text(), "of cylindrical rollers: name of a gear on its shaft, at whose `position_mm` it is. The gear's bore is the outer race, the inner one is on the seat. At rest the rollers press the bore, whose `coupling` is distributing; in motion rings are rigid. Default: rigid rings, the inner one on the shaft";
         seat_offset_um: numbers(), "how far its seat stands off along x, y and z, um, up to 10000 either way: an error of a bore; default: 0, 0, 0";
         stiffness_n_per_mm: numbers(), "stiffness along x, y and z, N/mm, 0 .. 1e15 each; needed where there is no matrix and no `type`";
         tilt_stiffness_nm_per_rad: numbers(), "stiffness of the turns about x and y, N m/rad, 0 .. 1e15 each; default: 0, 0";

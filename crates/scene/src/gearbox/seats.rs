@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::{
-    file::{GearboxBearing, GearboxShaft},
+    file::{GearboxBearing, GearboxGear, GearboxShaft},
     schema::RawGearbox,
     shaft::length,
     values::Checked,
@@ -150,4 +150,28 @@ fn fixed_shaft(s: &Source<'_>, raw: &RawGearbox, shafts: &[GearboxShaft]) -> Che
         ),
         None => Ok(Some(first)),
     }
+}
+
+/// Checks that bearings in bores are where their gears are, one in each.
+pub(super) fn in_bores(
+    s: &Source<'_>,
+    raw: &RawGearbox,
+    (bearings, gears): (&[GearboxBearing], &[GearboxGear]),
+) -> Checked<()> {
+    for (i, (table, own)) in raw.bearing.iter().zip(bearings).enumerate() {
+        let (Some(number), Some(word)) = (own.in_bore_of, &table.get_ref().in_bore_of) else { continue };
+        let gear = &gears[number];
+        let off = (gear.position - own.position).abs().max((gear.seat - own.position).abs());
+        if gear.shaft != own.shaft || off > ONE_AXIS {
+            let said =
+                format!("\"{}\" is in the bore of \"{}\", and not on its shaft at its mid-face", own.name, gear.name);
+            let advice = "`shaft` and `position_mm` of both are the same, and the gear has no other `seat_mm`; what carries the bearing goes into `in_shaft`";
+            return Err(s.conflict(&word.span(), said, advice));
+        }
+        if bearings[..i].iter().any(|other| other.in_bore_of == Some(number)) {
+            let said = format!("two bearings are in the bore of \"{}\"", gear.name);
+            return Err(s.conflict(&word.span(), said, "give one bearing two `rows`, `row_distance_mm` apart"));
+        }
+    }
+    Ok(())
 }

@@ -28,23 +28,63 @@ pub struct CommonGear<'a> {
     pub compliance: MatRef<'a, f64>,
 }
 
+/// Force and approach of something that presses: approach (mm) of row i under a force (N), and its slope (mm/N).
+pub type Approach<'a> = &'a dyn Fn(usize, f64) -> (f64, f64);
+
+/// Rolling elements, divided into rows, that press the bore of a gear of some contacts. Row r presses by `shares` of a few
+/// of m pressures on the bore, and opens with them.
+///
+/// ```text
+/// g_r = g0_r + l_r . d + sum of S_rj F_j + delta_r(F_r),   S between rows = N U N',   S_ri = N_r U_f' A_i'
+/// ```
+/// d: coordinates of the bearing, f = l' F the force along them; N: shares, A: supports of slices. Theory (38b).
+pub struct PressedBore<'a> {
+    /// Gaps g0_r + l_r . d with all bodies rigid, mm.
+    pub gaps: &'a [f64],
+    /// l_r: what each of six coordinates opens.
+    pub levers: &'a [[f64; 6]],
+    /// delta_r.
+    pub approach: Approach<'a>,
+    /// U: openings of the bore along its pressures under unit ones, mm/N, m x m, symmetric.
+    pub compliance: MatRef<'a, f64>,
+    /// N: pressures of each row, and its shares in them.
+    pub shares: &'a [[(usize, f64); 2]],
+    /// Its flanks.
+    pub flanks: Vec<FlanksOfBore<'a>>,
+    /// Forces of the rows, N: those to begin with, then those of the solution.
+    pub forces: &'a mut Vec<f64>,
+}
+
+/// Flanks of a gear whose bore is pressed.
+#[derive(Debug, Clone, Copy)]
+pub struct FlanksOfBore<'a> {
+    /// Number of the contact.
+    pub contact: usize,
+    /// Which body of it the gear is: 0 its pinion, 1 its wheel.
+    pub body: usize,
+    /// U_f: displacements (mm) of the boundary coordinates of its window, in the frame of its matrices, under unit pressures (N),
+    /// 3n x m.
+    pub columns: MatRef<'a, f64>,
+}
+
 /// Contacts that are solved as one.
 ///
 /// ```text
 /// g_i = g0_i + sum_j S_ij F_j + delta_i(F_i) >= 0,   F_i >= 0,   F_i g_i = 0       i, j: the slices of all contacts
 /// S between two contacts = sum over the gears that they have in common of A_i C_ij A_j'
 /// ```
-/// C_ij is the compliance between the two windows of a gear, A the rows' supports. Theory (38a).
+/// C_ij is the compliance between the two windows of a gear, A the rows' supports. Rows of bores that rolling elements press
+/// come after the slices ([`PressedBore`]). Theory (38a), (38b).
 #[derive(Debug)]
 pub struct JoinedContacts {
-    /// Contacts of the last evaluation, and rows that there is memory for.
+    /// Contacts and bores of the last evaluation, and rows that there is memory for.
     count: usize,
     most: usize,
     solver: DenseSolver,
     compliance: Vec<f64>,
     gaps: Vec<f64>,
     still: Vec<f64>,
-    /// df/dq of all contacts, 12 coordinates each, row by row.
+    /// df/dq of all contacts and then of all bores, 12 coordinates each (of a bore the first six), row by row.
     tangent: Vec<f64>,
 }
 
@@ -64,8 +104,8 @@ impl JoinedContacts {
     /// Forces of all contacts with the frames of their gears at `poses`, and their tangents: each contact then has its own
     /// ([`MeshContact::force`]) as after [`MeshContact::evaluate`].
     ///
-    /// A row may be approached by as much as all contacts overlap together, for a gear moves nowhere more than under its
-    /// loads.
+    /// A row may be approached by as much as all contacts and bores overlap together, for a gear moves nowhere more than under
+    /// its loads.
     ///
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.
@@ -74,13 +114,16 @@ impl JoinedContacts {
         contacts: &mut [&mut MeshContact],
         poses: &[[Pose; 2]],
         common: &[CommonGear<'_>],
+        bores: &mut [PressedBore<'_>],
     ) -> Result<(), ContactError> {
-        self.count = contacts.len();
-        let most = contacts.iter().map(|contact| contact.hints.len()).sum();
+        self.count = contacts.len() + bores.len();
+        let most = contacts.iter().map(|contact| contact.hints.len()).sum::<usize>()
+            + bores.iter().map(|bore| bore.gaps.len()).sum::<usize>();
         if most > self.most {
             (self.most, self.solver) = (most, DenseSolver::new(most));
         }
-        let mut reach = 0.0;
+        let overlaps = bores.iter().map(|bore| bore.gaps.iter().fold(0.0, |most: f64, gap| most.max(-gap)));
+        let mut reach = overlaps.sum::<f64>();
         for (contact, poses) in contacts.iter_mut().zip(poses) {
             contact.search_from_hints(poses, f64::INFINITY);
             reach += contact.deepest().max(0.0);
@@ -94,23 +137,31 @@ impl JoinedContacts {
         for contact in contacts.iter_mut() {
             let _ = contact.solve(Balance::Held, 0);
         }
-        let first: Vec<usize> =
-            (contacts.iter()).scan(0, |at, contact| Some(std::mem::replace(at, *at + contact.rows().len()))).collect();
-        let n = contacts.iter().map(|contact| contact.rows().len()).sum();
+        let sizes =
+            || contacts.iter().map(|contact| contact.rows().len()).chain(bores.iter().map(|bore| bore.gaps.len()));
+        let first: Vec<usize> = sizes().scan(0, |at, size| Some(std::mem::replace(at, *at + size))).collect();
+        let n = sizes().sum();
         let symmetric = contacts.iter().all(|contact| contact.friction.is_none());
-        self.join((&*contacts, poses, common), &first, (n, symmetric));
+        self.join((&*contacts, poses, common), &*bores, &first, (n, symmetric));
         self.gaps.clear();
         self.gaps.extend(contacts.iter().flat_map(|contact| &contact.gaps));
+        self.gaps.extend(bores.iter().flat_map(|bore| bore.gaps));
         self.still.clear();
         self.still.resize(n, 0.0);
-        let (owner, contacts_now) = (|row: usize| first.partition_point(|at| *at <= row) - 1, &*contacts);
+        let (owner, now, pressed) = (|row: usize| first.partition_point(|at| *at <= row) - 1, &*contacts, &*bores);
         let local = |row: usize, force: f64| {
             let k = owner(row);
-            contacts_now[k].contact.laws.under(row - first[k], force)
+            match now.get(k) {
+                Some(contact) => contact.contact.laws.under(row - first[k], force),
+                None => (pressed[k - now.len()].approach)(row - first[k], force),
+            }
         };
         let start = |row: usize| {
             let k = owner(row);
-            contacts_now[k].last_forces[contacts_now[k].contact.keys[row - first[k]]]
+            match now.get(k) {
+                Some(contact) => contact.last_forces[contact.contact.keys[row - first[k]]],
+                None => pressed[k - now.len()].forces.get(row - first[k]).copied().unwrap_or(0.0),
+            }
         };
         let Self { solver, compliance, gaps, still, .. } = self;
         let compliance = MatRef::from_column_major_slice(&compliance[..], n, n);
@@ -123,11 +174,16 @@ impl JoinedContacts {
             contact.keep_forces();
             contact.sum_forces();
         }
-        self.find_tangent(contacts, &first);
+        for (bore, &at) in bores.iter_mut().zip(&first[contacts.len()..]) {
+            bore.forces.clear();
+            bore.forces.extend_from_slice(&solver.forces()[at..at + bore.gaps.len()]);
+        }
+        self.find_tangent(contacts, &*bores, &first);
         Ok(())
     }
 
-    /// df/dq of contact `of` by the coordinates of the gears of contact `by`, N/mm, N, N mm: after an evaluation.
+    /// df/dq of contact `of` by the coordinates of the gears of contact `by`, N/mm, N, N mm: after an evaluation. Bores have the
+    /// numbers after the contacts.
     pub fn tangent(&self, of: usize, by: usize) -> [[f64; OF_MESH]; OF_MESH] {
         let n = OF_MESH * self.count;
         let entry = |p: usize, q: usize| self.tangent[(OF_MESH * of + p) * n + OF_MESH * by + q];
@@ -138,6 +194,7 @@ impl JoinedContacts {
     fn join(
         &mut self,
         (contacts, poses, common): (&[&mut MeshContact], &[[Pose; 2]], &[CommonGear<'_>]),
+        bores: &[PressedBore<'_>],
         first: &[usize],
         (n, symmetric): (usize, bool),
     ) {
@@ -178,14 +235,49 @@ impl JoinedContacts {
                 put([b, a], [gear.bodies[1], gear.bodies[0]], gear.compliance.transpose(), false);
             }
         }
+        for (bore, &at) in bores.iter().zip(&first[contacts.len()..]) {
+            for (j, to) in bore.shares.iter().enumerate() {
+                for (i, of) in bore.shares.iter().enumerate() {
+                    let part =
+                        |&(p, a): &(usize, f64)| to.iter().map(|&(q, b)| a * b * bore.compliance[(p, q)]).sum::<f64>();
+                    compliance[(at + j) * n + at + i] = of.iter().map(part).sum();
+                }
+            }
+            for flanks in &bore.flanks {
+                let m = flanks.columns.ncols();
+                let columns: Vec<Vec<f64>> = (0..m).map(|q| flanks.columns.col(q).iter().copied().collect()).collect();
+                for (i, row) in rows[flanks.contact].iter().enumerate() {
+                    let (support, row_at) = (&row.supports[flanks.body], first[flanks.contact] + i);
+                    let opened: Vec<f64> = columns.iter().map(|column| opening(support, column)).collect();
+                    let mut pressed = if symmetric { opened.clone() } else { vec![0.0; m] };
+                    if !symmetric {
+                        load_columns(support, |dof, force| {
+                            pressed.iter_mut().zip(&columns).for_each(|(sum, column)| *sum += force * column[dof]);
+                        });
+                    }
+                    for (r, shares) in bore.shares.iter().enumerate() {
+                        let sum = |of: &[f64]| shares.iter().map(|&(q, share)| share * of[q]).sum::<f64>();
+                        compliance[(at + r) * n + row_at] += sum(&opened);
+                        compliance[row_at * n + at + r] += sum(&pressed);
+                    }
+                }
+            }
+        }
     }
 
-    fn find_tangent(&mut self, contacts: &mut [&mut MeshContact], first: &[usize]) {
+    fn find_tangent(&mut self, contacts: &mut [&mut MeshContact], bores: &[PressedBore<'_>], first: &[usize]) {
         let n = OF_MESH * self.count;
         self.tangent.resize(n * n, 0.0);
         let now = &*contacts;
         let fill = |i: usize, openings: &mut [f64], loads: &mut [f64]| {
             let k = first.partition_point(|at| *at <= i) - 1;
+            if let Some(bore) = k.checked_sub(now.len()).map(|bore| &bores[bore]) {
+                for all in [openings, loads] {
+                    all.fill(0.0);
+                    all[OF_MESH * k..][..6].copy_from_slice(&bore.levers[i - first[k]]);
+                }
+                return;
+            }
             let contact = &now[k].contact;
             let centres = contact.at.unwrap_or([Pose::identity(); 2]).map(|pose| pose.translation.vector);
             let row = &contact.rows[i - first[k]];

@@ -32,7 +32,7 @@ use crate::{
 };
 
 pub(super) use compliance::{mirror, places};
-pub use joined::{CommonGear, JoinedContacts};
+pub use joined::{Approach, CommonGear, FlanksOfBore, JoinedContacts, PressedBore};
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
 
