@@ -2,6 +2,7 @@
 //! references that this program did not make.
 
 mod adversarial;
+mod gearboxes;
 mod held_out_pairs;
 mod references;
 mod spur_positions;
