@@ -399,7 +399,10 @@ fn flanks_by_tooth_show_while_their_tooth_is_in_mesh() {
 #[test]
 fn a_resolved_model_sees_the_same_wave() {
     let data = default_data(0.0).map(|d| GearData { face_width: 2.0, ..d });
-    let case = testing::of_order(1, data, None, 1.0, [160, 8, 64, 1, 4], mesh::Extent::Periodic);
+    // Narrow bands ask for a finer mesh.
+    let all = testing::cases(1, 2) > 1;
+    let [profile, thickness] = if all { [256, 96] } else { [160, 64] };
+    let case = testing::of_order(1, data, None, 1.0, [profile, 8, thickness, 1, 4], mesh::Extent::Periodic);
     let material = fem::Material::new(2.06e5, 0.0, 7.85e-9).unwrap();
     let pinion = &case.pair.pinion;
     let model = |options: StaticOptions| {
@@ -433,7 +436,8 @@ fn a_resolved_model_sees_the_same_wave() {
         let of = |phase: f64| (te(phase, 1.0) - te(phase, -1.0)) / 0.4e-3;
         [of(0.0), of(FRAC_PI_2)]
     };
-    for (line_load, orders) in [(700.0, [80.0, 130.0]), (1900.0, [50.0, 80.0])] {
+    let tried = [(1900.0, [50.0, 80.0]), (700.0, [80.0, 130.0])];
+    for (line_load, orders) in tried.into_iter().take(if all { 2 } else { 1 }) {
         let smooth = slices(&solved(&sliced, line_load, [9, 3], &|_| 0.0));
         let (a, p) = (smooth[0].half_width, smooth[0].pressure);
         for order in orders {
