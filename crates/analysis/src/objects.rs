@@ -4,7 +4,8 @@ use described::Key;
 use geometry::{Balls, GearSheet, GeometrySheet, PathPoint, RingSheet, Span};
 use rating::{
     BendingFactors, FlankPlace, FlashRating, GearDamage, GearRating, IntegralRating, LocalDamage, LocalScuffing,
-    MeshLoss, MicropittingRating, Outside, PittingFactors, ScuffingRating, SpectrumRating, StandardRating,
+    MeshLoss, MicropittingRating, Outside, PittingFactors, ScuffingRating, SpectrumRating, StandardMicropitting,
+    StandardRating,
 };
 use study::Lyapunov;
 
@@ -82,6 +83,7 @@ pub fn objects() -> Vec<(&'static str, Vec<Key>)> {
         of("integral", IntegralRating::KEYS),
         of("local_scuffing", LocalScuffing::KEYS),
         of("micropitting", MicropittingRating::KEYS),
+        of("standard_micropitting", StandardMicropitting::KEYS),
         of("mesh_loss", MeshLoss::KEYS),
         of("tooth_change", ToothChangeHeadline::KEYS),
         of("headline, a motion of reduced gears", MotionHeadline::KEYS),

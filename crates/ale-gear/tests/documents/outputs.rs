@@ -86,6 +86,9 @@ fn every_kind() -> Scratch {
     run(&[&["run", "ramp.toml", "--out", "out-modes"], &modes[..]].concat());
     let key = "pinion.modification.lead_crowning_um";
     run(&["run", "rest.toml", "--out", "out-derivatives", "--derivatives", key, "--set", "output.root_stress=false"]);
+    let uneven = format!("pinion.pitch_errors_um=[{}5]", "0,".repeat(29));
+    let orders = ["--set", &uneven, "--set", "output.flank_orders=true", "--set", "output.root_stress=false"];
+    run(&[&["run", "rest.toml", "--out", "out-orders", "--set", "analysis.turn=pinion"], &orders[..]].concat());
     run(&["run", "mapped.toml", "--out", "out-mapped"]);
     let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();
     let soon = ["--set", "analysis.cycles=2", "--set", "motion.warm_up_cycles=2"];

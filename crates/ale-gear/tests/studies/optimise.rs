@@ -191,7 +191,6 @@ fn measured_gears_are_samples() {
         line.split('=').nth(1).unwrap().trim().parse::<f64>().unwrap()
     };
     let [one, all] = ["one", "all"].map(found);
-    println!("profile slope {one:.2} um for the first gear, {all:.2} um for three");
     assert!((one + slopes[0]).abs() < 0.5, "{one} um for a gear of {} um", slopes[0]);
     assert!((all + slopes.iter().sum::<f64>() / 3.0).abs() < 0.5, "{all} um for gears of {slopes:?} um");
     let goal = |i: usize| {

@@ -394,15 +394,17 @@ fn flanks_by_tooth_show_while_their_tooth_is_in_mesh() {
 }
 
 /// One wave of the profile against a model that resolves it: points pressed by themselves on flanks with a dozen elements in
-/// the band and twenty in a wave, plane because Poisson's ratio is 0. No law of a band is in it.
+/// the band and twenty in a wave, plane because Poisson's ratio is 0. No law of a band is in it. Under 3 GPa the slices take
+/// a part of the longer waves as curvature, and are told apart from the law.
 #[test]
 fn a_resolved_model_sees_the_same_wave() {
-    // Elements along the profile and across the tooth.
-    let [profile, thickness] = if testing::cases(1, 2) > 1 { [160, 64] } else { [80, 32] };
     let data = default_data(0.0).map(|d| GearData { face_width: 2.0, ..d });
-    let torque = 1900.0 * 2.0 * 42.286;
-    let case = testing::of_order(1, data, None, torque, [profile, 8, thickness, 1, 4], mesh::Extent::Periodic);
+    // Narrow bands ask for a finer mesh.
+    let all = testing::cases(1, 2) > 1;
+    let [profile, thickness] = if all { [256, 96] } else { [160, 64] };
+    let case = testing::of_order(1, data, None, 1.0, [profile, 8, thickness, 1, 4], mesh::Extent::Periodic);
     let material = fem::Material::new(2.06e5, 0.0, 7.85e-9).unwrap();
+    let pinion = &case.pair.pinion;
     let model = |options: StaticOptions| {
         let first = StaticModel::first_teeth(&case.pair, &options).unwrap();
         let gears = [0, 1].map(|i| {
@@ -419,37 +421,37 @@ fn a_resolved_model_sees_the_same_wave() {
     let points = model(case.options().with_contact(|c| c.points_per_face_edge = 4));
     let sliced = model(case.slice_options().with_contact(|c| c.slices = 4));
     let station = Station { cycle: 0, phase: 0.5 };
-    let pinion = &case.pair.pinion;
-    let of = |base: &StaticModel, order: f64| {
-        let side = base.options().side();
+    // Of tooth 0 alone: the teeth beside are out of the way, under such a load they would press, too.
+    let solved = |base: &StaticModel, line_load: f64, counts: [usize; 2], depth: &dyn Fn(f64) -> f64| {
+        let of = |tooth: i64, [u, _]: [f64; 2]| if tooth == 0 { depth(u) } else { 0.3 };
+        let waved = with_flanks(pinion, base.options().side(), 0..30, counts, of);
+        let options = StaticOptions { torque: line_load * 2.0 * pinion.base_radius(), ..base.options().clone() };
+        base.modified(with_pinion(&case.pair, waved), options).unwrap().solve(station).unwrap()
+    };
+    let of = |base: &StaticModel, line_load: f64, order: f64| {
         let te = |phase: f64, sign: f64| {
-            // The teeth beside are out of the way: under such a load they would press, too.
-            let depth = |tooth: i64, [u, _]: [f64; 2]| match tooth {
-                0 => sign * 0.2e-3 * (order * u + phase).cos(),
-                _ => 0.3,
-            };
-            let waved = with_flanks(pinion, side, 0..30, [lines(pinion, order, 5.0)[0], 3], depth);
-            let pair = with_pinion(&case.pair, waved);
-            base.modified(pair, base.options().clone()).unwrap().solve(station).unwrap().transmission_error
+            let depth = |u: f64| sign * 0.2e-3 * (order * u + phase).cos();
+            solved(base, line_load, [lines(pinion, order, 5.0)[0], 3], &depth).transmission_error
         };
         let of = |phase: f64| (te(phase, 1.0) - te(phase, -1.0)) / 0.4e-3;
         [of(0.0), of(FRAC_PI_2)]
     };
-    let alone =
-        with_flanks(pinion, sliced.options().side(), 0..30, [9, 3], |tooth, _| if tooth == 0 { 0.0 } else { 0.3 });
-    let alone = sliced.modified(with_pinion(&case.pair, alone), sliced.options().clone());
-    let smooth = slices(&alone.unwrap().solve(station).unwrap());
-    for order in [20.0, 50.0, 80.0] {
-        let ka = order / (pinion.base_radius() * smooth[0].roll[0]) * smooth[0].half_width;
-        let [own, wanted] = [of(&points, order), of(&sliced, order)];
-        let off = (own[0] - wanted[0]).hypot(own[1] - wanted[1]);
-        println!(
-            "order {order}, k a {ka:.3}, a {:.3} mm: points {:.4}, slices {:.4}, J_0 {:.4}; apart by {off:.4}",
-            smooth[0].half_width,
-            own[0].hypot(own[1]),
-            wanted[0].hypot(wanted[1]),
-            bessel(ka)
-        );
-        assert!(off < 0.05, "order {order}: {own:?}, not {wanted:?}");
+    let tried = [(1900.0, [50.0, 80.0]), (700.0, [80.0, 130.0])];
+    for (line_load, orders) in tried.into_iter().take(if all { 2 } else { 1 }) {
+        let smooth = slices(&solved(&sliced, line_load, [9, 3], &|_| 0.0));
+        let (a, p) = (smooth[0].half_width, smooth[0].pressure);
+        for order in orders {
+            let ka = order / (pinion.base_radius() * smooth[0].roll[0]) * a;
+            let [own, wanted] = [of(&points, line_load, order), of(&sliced, line_load, order)];
+            let off = (own[0] - wanted[0]).hypot(own[1] - wanted[1]);
+            let [own, wanted] = [own, wanted].map(|both| both[0].hypot(both[1]));
+            println!(
+                "a {a:.3} mm, {p:.0} MPa, order {order}, k a {ka:.3}: points {own:.4}, slices {wanted:.4}, J_0 {:.4}; \
+                 apart by {off:.4}",
+                bessel(ka)
+            );
+            assert!((own - bessel(ka).abs()).abs() < 0.03, "order {order}: {own}, not {}", bessel(ka));
+            assert!(p > 2000.0 || off < 0.05, "order {order}: points {own}, slices {wanted}, apart by {off}");
+        }
     }
 }

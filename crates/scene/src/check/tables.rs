@@ -93,7 +93,8 @@ pub(super) fn of_turn(
     analysis: Analysis,
     [pinion, wheel]: [u32; 2],
 ) -> Checked<Analysis> {
-    let Some((turn, word)) = analysis.turn.zip(raw.turn.as_ref()) else { return Ok(analysis) };
+    let own = analysis.turn.zip(raw.turn.as_ref());
+    let Some((turn, word)) = own else { return Ok(Analysis { turn: None, ..analysis }) };
     if raw.cycles.is_some() {
         let what = "`turn` and `cycles` both say how many mesh cycles are solved";
         return Err(s.conflict(&word.span(), what, "keep one of them"));

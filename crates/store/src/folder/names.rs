@@ -1,7 +1,7 @@
 //! Names of all files that a result may hold: what a killed run has left is known by them, since it has no record yet.
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 60] = [
+const OURS: [&str; 64] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -11,6 +11,10 @@ const OURS: [&str; 60] = [
     "contact_pattern_pinion.csv",
     "contact_pattern_wheel.csv",
     "contact_pattern.svg",
+    "root_pattern_pinion.csv",
+    "root_pattern_wheel.csv",
+    "te_orders.csv",
+    "te_shares.csv",
     "energy.csv",
     "spectrum.csv",
     "section.csv",
