@@ -24,7 +24,7 @@ const TORQUE: f64 = 3e5;
 /// Teeth of pinion, gear between, and wheel; module 3 mm, face width 20 mm.
 const TEETH: [u32; 3] = [20, 31, 23];
 
-pub const WHOLE: StructuredOptions = StructuredOptions {
+const SECTOR: StructuredOptions = StructuredOptions {
     order: 1,
     elements_profile: 2,
     elements_fillet: 2,
@@ -132,23 +132,28 @@ impl Setting {
     }
 
     fn gearbox(self) -> StaticGearbox {
+        self.meshed(Extent::Periodic)
+    }
+
+    /// The gear between as one sector, or whole and condensed in one factor.
+    fn meshed(self, extent: Extent) -> StaticGearbox {
         let (structure, meshes, run) = self.parts();
         let made = StaticGearbox::new(structure, meshes, run, |i, mesh, meshing| {
             let own = options(&mesh.pair, meshing, TORQUE);
-            let mut case = Case::meshed(mesh.pair.clone(), &WHOLE, TORQUE);
+            let mut case = Case::meshed(mesh.pair.clone(), &StructuredOptions { extent, ..SECTOR }, TORQUE);
             let between = 1 - i;
             case.meshes[between] = case.meshes[between].clone().coupled(self.coupling);
-            let gears = Arc::new(self.reduced(&case, &own, between));
+            let gears = Arc::new(self.reduced(&case, &own, (between, extent == Extent::Whole)));
             Ok(Box::new(ExactMesh::new(mesh.pair.clone(), gears, own)?) as Box<dyn MeshElement>)
         });
         made.unwrap_or_else(|e| panic!("{e}")).joined()
     }
 
-    /// Both gears, the one between of another stiffness.
-    fn reduced(self, case: &Case, own: &ltca::StaticOptions, between: usize) -> [ElasticGear; 2] {
+    /// Both gears, the one between of another stiffness; `general`: in one factor each.
+    fn reduced(self, case: &Case, own: &ltca::StaticOptions, (between, general): (usize, bool)) -> [ElasticGear; 2] {
         let steel = Material::STEEL;
         let stiff = Material::new(steel.young_mpa() * self.stiff, steel.poisson(), 7.85e-9).unwrap();
-        case.reduced_gears_of(own, std::array::from_fn(|i| if i == between { stiff } else { steel }))
+        case.reduced_gears_of(own, std::array::from_fn(|i| if i == between { stiff } else { steel }), general)
     }
 }
 
@@ -215,4 +220,40 @@ fn a_stiff_gear_is_a_rigid_ring_on_its_rollers() {
     println!("rigid: {:?}; off by {off:?}", wanted.iter().map(|f| f.round()).collect::<Vec<_>>());
     assert!(off[0] > 0.1, "{off:?}");
     assert!(off[1] < 2e-3 * off[0] * 1e3 && off[2] < 1e-4, "{off:?}");
+}
+
+/// Rollers slide over the sectors of the gear: nothing jumps where one comes from one to the next, nor where a mesh changes its
+/// teeth, and sectors and the whole gear in one factor say the same.
+#[test]
+fn nothing_jumps_where_a_roller_comes_to_another_sector() {
+    let setting = Setting { helix_deg: 12.0, ..SETTING };
+    let [mut sectors, mut whole] = [Extent::Periodic, Extent::Whole].map(|extent| setting.meshed(extent));
+    let step = 1e-9;
+    let zone = |found: &GearboxPosition| -> Vec<f64> {
+        setting.law().zone_of(&found.laminae[2]).iter().map(|own| own.force).collect()
+    };
+    let largest = |a: &[f64], b: &[f64]| {
+        let most = b.iter().copied().fold(0.0, f64::max);
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / most
+    };
+    // A roller is at a cut when the gear has turned by where its first one is.
+    let found = solve(&mut sectors, 0.0);
+    let first = sectors.rollers_on_bore(2).unwrap().angle;
+    let pitch = std::f64::consts::TAU / f64::from(TEETH[1]);
+    let ratio = -f64::from(TEETH[1]) / f64::from(TEETH[0]);
+    drop(found);
+    for (roller, part) in [(0, 0.0), (3, 0.5), (5, 0.0)] {
+        let at = (std::f64::consts::TAU / 16.0 * f64::from(roller) - first) / pitch;
+        let angle = ((at - at.floor()) + part) * pitch * ratio;
+        let [before, after] = [angle - step, angle + step].map(|angle| solve(&mut sectors, angle));
+        let jump = largest(&zone(&after), &zone(&before));
+        let other = solve(&mut whole, angle + step);
+        let apart = largest(&zone(&other), &zone(&after));
+        let lag = (other.output_lags[0] / after.output_lags[0] - 1.0).abs();
+        println!(
+            "roller {roller}: forces move by {jump:.1e}, the whole gear is off by {apart:.1e}, its lag by {lag:.1e}"
+        );
+        assert!(jump < 1e-6, "roller {roller}: forces jump by {jump:e} of the largest");
+        assert!(apart < 1e-8 && lag < 1e-9, "roller {roller}: whole gear off by {apart:e}, {lag:e}");
+    }
 }
