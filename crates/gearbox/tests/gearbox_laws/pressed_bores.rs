@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use fem::Material;
 use gearbox::{
-    Bearing, Disc, ExactMesh, GearMesh, GearboxPosition, MeshElement, Operation, Shaft, StaticGearbox, Structure,
-    Torque,
+    Bearing, Disc, ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, Operation, Shaft, StaticGearbox,
+    Structure, Torque,
     rolling_bearing::{AxialSetting, RollerGeometry, RollerProfile, RollingBearing, RollingElements, Row},
 };
 use geometry::{Gear, GearData, GearPair, Sense};
@@ -16,7 +16,7 @@ use testing::Case;
 
 use crate::{
     pairs::{bearing, operation, options, shaft},
-    rolling::made,
+    rolling::{MIDDLE, PLAYLESS, balls_209, made},
 };
 
 /// Torque of the output, N mm.
@@ -137,7 +137,12 @@ impl Setting {
 
     /// The gear between as one sector, or whole and condensed in one factor.
     fn meshed(self, extent: Extent) -> StaticGearbox {
-        let (structure, meshes, run) = self.parts();
+        self.of(self.parts().0, extent).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// The same of another structure.
+    fn of(self, structure: Structure, extent: Extent) -> Result<StaticGearbox, GearboxError> {
+        let (_, meshes, run) = self.parts();
         let made = StaticGearbox::new(structure, meshes, run, |i, mesh, meshing| {
             let own = options(&mesh.pair, meshing, TORQUE);
             let mut case = Case::meshed(mesh.pair.clone(), &StructuredOptions { extent, ..SECTOR }, TORQUE);
@@ -146,7 +151,7 @@ impl Setting {
             let gears = Arc::new(self.reduced(&case, &own, (between, extent == Extent::Whole)));
             Ok(Box::new(ExactMesh::new(mesh.pair.clone(), gears, own)?) as Box<dyn MeshElement>)
         });
-        made.unwrap_or_else(|e| panic!("{e}")).joined()
+        made.map(StaticGearbox::joined)
     }
 
     /// Both gears, the one between of another stiffness; `general`: in one factor each.
@@ -256,4 +261,60 @@ fn nothing_jumps_where_a_roller_comes_to_another_sector() {
         assert!(jump < 1e-6, "roller {roller}: forces jump by {jump:e} of the largest");
         assert!(apart < 1e-8 && lag < 1e-9, "roller {roller}: whole gear off by {apart:e}, {lag:e}");
     }
+}
+
+/// What does not fit into a bore is refused with its numbers and with what cures it.
+#[test]
+fn rollers_that_do_not_fit_a_bore_are_refused() {
+    let solved = |setting: Setting, change: fn(&mut Structure, RollerGeometry)| {
+        let (mut structure, ..) = setting.parts();
+        change(&mut structure, rollers(setting.bore_mm(), setting.profile));
+        let refused = setting.of(structure, Extent::Periodic).and_then(|mut gearbox| gearbox.solve(0.1)).unwrap_err();
+        let hint = refused.hint().unwrap_or_default();
+        println!("{refused}; {hint}");
+        (refused.to_string(), hint)
+    };
+    for (change, said, cure) in [
+        (
+            (|structure, own| {
+                let own = RollerGeometry { length: 24.0, ..own };
+                let law = made(RollingElements::Rollers(own), &MIDDLE, 0.0, PLAYLESS);
+                structure.bearings[2].law = Some(Arc::new(law));
+            }) as fn(&mut Structure, RollerGeometry),
+            "the rollers lie from -12.000 to 12.000 mm",
+            "element_length_mm",
+        ),
+        (
+            |structure, own| {
+                let own = RollerGeometry { pitch_diameter: 0.9 * own.pitch_diameter, ..own };
+                let law = made(RollingElements::Rollers(own), &MIDDLE, 0.0, PLAYLESS);
+                structure.bearings[2].law = Some(Arc::new(law));
+            },
+            "the outer race of the rollers is",
+            "pitch_diameter_mm",
+        ),
+        (
+            |structure, _| {
+                let law = made(RollingElements::Balls(balls_209()), &MIDDLE, 0.0, PLAYLESS);
+                structure.bearings[2].law = Some(Arc::new(law));
+            },
+            "pressed by cylindrical rollers alone",
+            "cylindrical-roller",
+        ),
+        (|structure, _| structure.bearings[2].bore_of = Some(2), "gear wheel is not on the shaft", "`in_shaft`"),
+        (
+            |structure, _| {
+                let again = structure.bearings[2].clone();
+                structure.bearings.push(again);
+            },
+            "another bearing is in the bore of gear gear",
+            "`rows`",
+        ),
+    ] {
+        let (refused, hint) = solved(SETTING, change);
+        assert!(refused.contains(said) && hint.contains(cure), "{refused}: {hint}");
+    }
+    let rigid = Setting { coupling: BoreCoupling::Kinematic, ..SETTING };
+    let (refused, hint) = solved(rigid, |_, _| ());
+    assert!(refused.contains("`kinematic`") && hint.contains("distributing"), "{refused}: {hint}");
 }
