@@ -65,13 +65,14 @@ pub use bore_error::BoreError;
 pub use elastic_body::ElasticBody;
 pub use elastic_gears::elastic_gears;
 pub use error::GearboxError;
-pub use exact_mesh::ExactMesh;
+pub use exact_mesh::{ExactMesh, FlankForces};
 pub use load_sharing::{LoadSharing, PlanetShare, load_shares, planet_play};
 pub use mesh_bears::MeshBears;
 pub use mesh_element::{MeshElement, MeshForces, ModalForces, Vector12};
 pub use mesh_of_gears::MeshOfGears;
 pub use mesh_torques::{even_mesh_torques, mesh_torques};
 pub use modal_energy::{Component, EnergyShare, ModalEnergy};
+pub use pressed_bore::RollersOnBore;
 pub use seat_error::SeatError;
 pub use static_gearbox::{Operation, StaticGearbox, Torque};
 pub use static_result::{

@@ -24,6 +24,23 @@ const BEYOND: f64 = 1e-6;
 /// Matrices that are kept of a gear's flanks: teeth change in turn, and come back.
 const KEPT: usize = 3;
 
+/// Rollers on the bore of a gear at a position, in the frame of the gear's matrices.
+#[derive(Debug, Clone)]
+pub struct RollersOnBore {
+    /// Angle of that frame from +x, rad.
+    pub angle: f64,
+    /// Pressures on the bore.
+    pub grid: BoreGrid,
+    /// Pressures of the rollers at its heights, each of a resultant of 1 N: shares of the grid's.
+    pub prints: Vec<Vec<(usize, f64)>>,
+    /// Shares of every lamina in them.
+    pub shares: Vec<[(usize, f64); 2]>,
+    /// What the rings have to approach by at every lamina until it presses, mm.
+    pub gaps: Vec<f64>,
+    /// Forces of the laminae, N.
+    pub forces: Vec<f64>,
+}
+
 /// A window of the gear in one of the joined meshes.
 pub(crate) struct SeenBy<'a> {
     pub reducer: &'a GearReducer,
@@ -64,6 +81,7 @@ struct Placed {
     levers: Vec<[f64; 6]>,
     /// Shares of the laminae in the pressures of rollers at heights.
     shares: Vec<[(usize, f64); 2]>,
+    prints: Vec<Footprint>,
     /// U.
     compliance: Mat<f64>,
     /// U_f of each mesh.
@@ -161,6 +179,19 @@ impl BoreOfGear {
             shares: &placed.shares,
             flanks: flanks.collect(),
             forces: &mut self.forces,
+        })
+    }
+
+    /// Its rollers at the last position.
+    pub fn rollers(&self) -> Option<RollersOnBore> {
+        let (placed, body) = (self.placed.as_ref()?, self.body.as_ref()?);
+        Some(RollersOnBore {
+            angle: placed.angles[0],
+            grid: body.grid.clone(),
+            prints: placed.prints.iter().map(|own| own.parts.clone()).collect(),
+            shares: placed.shares.clone(),
+            gaps: body.rollers.laminae.iter().map(|own| own.gap).collect(),
+            forces: self.forces.clone(),
         })
     }
 
@@ -264,7 +295,7 @@ impl PressedBody {
             all
         };
         let flanks = angles.iter().zip(flanks).map(under).collect();
-        Placed { angles: angles.to_vec(), firsts, levers, shares, compliance, flanks }
+        Placed { angles: angles.to_vec(), firsts, levers, shares, prints: own, compliance, flanks }
     }
 
     /// Pressure of a roller at an angle (rad) in the gear's frame, at one height of the grid: a wave that its neighbours' make up

@@ -4,7 +4,8 @@ use geometry::Sense;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use crate::{
-    Assembly, GearMesh, GearboxError, MeshElement, MeshForces, ModalForces, Structure, Train, Vector12,
+    Assembly, ExactMesh, FlankForces, GearMesh, GearboxError, MeshElement, MeshForces, ModalForces, RollersOnBore,
+    Structure, Train, Vector12,
     compliant_support::CompliantBearing,
     equilibrium::Norms,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
@@ -158,6 +159,18 @@ impl StaticGearbox {
         let meshes = (&self.meshes[..], self.train.meshing());
         self.joined = JoinedMeshes::all(meshes, &mut self.elements, &self.compliant_support);
         self
+    }
+
+    /// Rollers of a bearing that press the bore of a gear, at the last position; `None` of other bearings.
+    pub fn rollers_on_bore(&self, bearing: usize) -> Option<RollersOnBore> {
+        let mut bores = self.joined.iter().flat_map(|joined| &joined.bores);
+        bores.find(|bore| self.compliant_support[bore.bearing].bearing == bearing)?.rollers()
+    }
+
+    /// Forces of an exact mesh on the nodes of both gears where equilibrium was looked for last; `None` of other meshes.
+    pub fn flank_forces(&mut self, mesh: usize) -> Option<[FlankForces; 2]> {
+        let direction = self.train.meshing().get(mesh)?.direction;
+        self.elements[mesh].to_join()?.downcast_mut::<ExactMesh>()?.flank_forces(direction)
     }
 
     /// Nominal motion of the train.

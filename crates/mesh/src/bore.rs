@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3x6, Matrix6, Rotation3, Vector3};
 
-use crate::{BoreCoupling, Face, MeshError, MeshedGear, SurfaceGroup};
+use crate::{BoreCoupling, Face, Mesh, MeshError, MeshedGear, SurfaceGroup};
 
 impl MeshedGear {
     /// This gear, held only by the faces of its bore that lie entirely between two heights `from` <= z <= `to` (mm). A
@@ -84,14 +84,19 @@ impl MeshedGear {
     /// Integrals of the shape functions over the held faces, mm^2, by node, ascending. Area-weighted means are computed
     /// with them. The integrals of corner nodes of quadratic faces are negative.
     pub fn bore_weights(&self) -> Vec<(u32, f64)> {
-        let mut all: BTreeMap<u32, f64> = BTreeMap::new();
-        for face in &self.bore.faces {
-            for point in face.area_points(&self.mesh) {
-                for (value, &node) in point.shape.iter().zip(face.nodes()) {
-                    *all.entry(node).or_default() += value * point.area;
-                }
+        face_weights(&self.mesh, &self.bore.faces)
+    }
+}
+
+/// Integrals of the shape functions over some faces of a mesh, mm^2, by node.
+pub fn face_weights(mesh: &Mesh, faces: &[Face]) -> Vec<(u32, f64)> {
+    let mut all: BTreeMap<u32, f64> = BTreeMap::new();
+    for face in faces {
+        for point in face.area_points(mesh) {
+            for (value, &node) in point.shape.iter().zip(face.nodes()) {
+                *all.entry(node).or_default() += value * point.area;
             }
         }
-        all.into_iter().collect()
     }
+    all.into_iter().collect()
 }

@@ -29,11 +29,10 @@ impl BoreCoupling {
         }
     }
 
-    /// Whether each sector of a gear is held by itself, and like the others.
+    /// Whether all sectors of a gear are held alike.
     pub fn is_by_sectors(self) -> bool {
         match self {
-            Self::Kinematic => true,
-            Self::Distributing => false,
+            Self::Kinematic | Self::Distributing => true,
             Self::Elastic(foundation) => foundation.is_cyclic(),
         }
     }

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, f64::consts::TAU};
 
 use nalgebra::{Vector3, Vector6};
 
-use crate::{Face, FaceKind, Mesh, MeshedGear, gauss_legendre};
+use crate::{Face, FaceKind, Mesh, gauss_legendre};
 
 /// Radial pressures on the held faces of a bore: of station a and height h
 ///
@@ -35,9 +35,9 @@ const POINTS: usize = 2;
 const PARTS: f64 = 3.0;
 
 impl BoreGrid {
-    /// Grid over the held faces of a meshed gear, with `stations` around the whole gear and at least two heights.
-    pub fn new(gear: &MeshedGear, stations: usize, heights: usize) -> Self {
-        let (mesh, faces) = (gear.mesh(), &gear.bore().faces);
+    /// Grid over the held faces of a bore, with `stations` around the whole gear and at least two heights; over those of a
+    /// sector pressures that do not reach it are empty.
+    pub fn new(mesh: &Mesh, faces: &[Face], stations: usize, heights: usize) -> Self {
         let nodes = || faces.iter().flat_map(Face::nodes).map(|&n| Vector3::from(mesh.nodes[n as usize]));
         let ends = nodes().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x.z), high.max(x.z)]);
         let heights = heights.max(2);

@@ -30,6 +30,7 @@ pub mod structured;
 mod tips;
 
 pub use bolts::Bolts;
+pub use bore::face_weights;
 pub use bore_coupling::BoreCoupling;
 pub use bore_grid::BoreGrid;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};

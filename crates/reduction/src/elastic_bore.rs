@@ -21,13 +21,7 @@ impl ElasticBore {
 
     /// The faces that belong to elements of `part`, a part of the mesh with `number` for each node's number.
     pub(crate) fn in_part(self, part: &Mesh, number: impl Fn(u32) -> Option<u32>) -> Self {
-        let table = FaceTable::new(part);
-        let own = |face: &Face| {
-            let nodes: Vec<u32> = face.nodes().iter().map(|&n| number(n)).collect::<Option<_>>()?;
-            let face = Face::new(face.kind, &nodes);
-            (table.owners(face.corner_key()).len() > 0).then_some(face)
-        };
-        Self { foundation: self.foundation, faces: self.faces.iter().filter_map(own).collect() }
+        Self { foundation: self.foundation, faces: faces_in_part(&self.faces, part, number) }
     }
 
     /// Stiffness of the elements of a mesh (N/mm), and of the springs under its bore.
@@ -56,4 +50,15 @@ impl ElasticBore {
         }
         Ok(stiffness)
     }
+}
+
+/// The faces that belong to elements of `part`, a part of the mesh with `number` for each node's number.
+pub(crate) fn faces_in_part(faces: &[Face], part: &Mesh, number: impl Fn(u32) -> Option<u32>) -> Vec<Face> {
+    let table = FaceTable::new(part);
+    let own = |face: &Face| {
+        let nodes: Vec<u32> = face.nodes().iter().map(|&n| number(n)).collect::<Option<_>>()?;
+        let face = Face::new(face.kind, &nodes);
+        (table.owners(face.corner_key()).len() > 0).then_some(face)
+    };
+    faces.iter().filter_map(own).collect()
 }

@@ -28,7 +28,7 @@ pub(crate) struct MeanSeat {
 }
 
 /// Least share of the largest eigenvalue of R'B, or of a row that is still independent, that is no round-off.
-const LEAST: f64 = 1e-8;
+pub(crate) const LEAST: f64 = 1e-8;
 
 impl MeanSeat {
     /// Seat of the held faces of a bore; all nodes of the mesh are free.
@@ -122,7 +122,7 @@ fn subtract(mut x: MatMut<'_, f64>, from: &Mat<f64>, inverse: &Matrix6<f64>, to:
 }
 
 /// Six rows that no rigid motion leaves at rest: one after the other the one that is farthest from those before.
-fn independent(mut rows: Vec<(usize, Vector6<f64>)>) -> Option<[usize; 6]> {
+pub(crate) fn independent(mut rows: Vec<(usize, Vector6<f64>)>) -> Option<[usize; 6]> {
     let mut found = [0; 6];
     for place in &mut found {
         let (mut best, mut size) = (None, LEAST);

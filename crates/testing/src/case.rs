@@ -81,11 +81,17 @@ impl Case {
 
     /// Both gears, reduced to the flanks and the window of the options.
     pub fn reduced_gears(&self, options: &StaticOptions) -> [ElasticGear; 2] {
-        self.reduced_gears_of(options, [Material::STEEL; 2])
+        self.reduced_gears_of(options, [Material::STEEL; 2], false)
     }
 
-    /// The same of other materials.
-    pub fn reduced_gears_of(&self, options: &StaticOptions, materials: [Material; 2]) -> [ElasticGear; 2] {
+    /// The same of other materials; `general`: in one factor each, whatever the gear is.
+    pub fn reduced_gears_of(
+        &self,
+        options: &StaticOptions,
+        materials: [Material; 2],
+        general: bool,
+    ) -> [ElasticGear; 2] {
+        let make = if general { GearReducer::general } else { GearReducer::new };
         let first = StaticModel::first_teeth(&self.pair, options).unwrap();
         [0, 1].map(|i| {
             let o = ReductionOptions {
@@ -94,7 +100,7 @@ impl Case {
                 first: first[i],
                 elements: self.elements,
             };
-            ElasticGear::Reduced(GearReducer::new(self.meshes[i].clone(), materials[i], o).unwrap())
+            ElasticGear::Reduced(make(self.meshes[i].clone(), materials[i], o).unwrap())
         })
     }
 

@@ -31,6 +31,7 @@ mod planets_in_space;
 mod rating;
 mod rating_loads;
 mod remarks;
+mod rollers_in_bores;
 mod run_ups;
 mod scale_at_rest;
 mod scale_in_motion;

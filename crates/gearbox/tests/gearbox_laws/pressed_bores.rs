@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use fem::Material;
 use gearbox::{
-    Bearing, Disc, ExactMesh, GearMesh, GearboxPosition, MeshElement, Operation, Shaft, StaticGearbox, Structure,
-    Torque,
+    Bearing, Disc, ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, Operation, Shaft, StaticGearbox,
+    Structure, Torque,
     rolling_bearing::{AxialSetting, RollerGeometry, RollerProfile, RollingBearing, RollingElements, Row},
 };
 use geometry::{Gear, GearData, GearPair, Sense};
@@ -16,7 +16,7 @@ use testing::Case;
 
 use crate::{
     pairs::{bearing, operation, options, shaft},
-    rolling::made,
+    rolling::{MIDDLE, PLAYLESS, balls_209, made},
 };
 
 /// Torque of the output, N mm.
@@ -24,7 +24,7 @@ const TORQUE: f64 = 3e5;
 /// Teeth of pinion, gear between, and wheel; module 3 mm, face width 20 mm.
 const TEETH: [u32; 3] = [20, 31, 23];
 
-pub const WHOLE: StructuredOptions = StructuredOptions {
+const SECTOR: StructuredOptions = StructuredOptions {
     order: 1,
     elements_profile: 2,
     elements_fillet: 2,
@@ -132,23 +132,33 @@ impl Setting {
     }
 
     fn gearbox(self) -> StaticGearbox {
-        let (structure, meshes, run) = self.parts();
-        let made = StaticGearbox::new(structure, meshes, run, |i, mesh, meshing| {
-            let own = options(&mesh.pair, meshing, TORQUE);
-            let mut case = Case::meshed(mesh.pair.clone(), &WHOLE, TORQUE);
-            let between = 1 - i;
-            case.meshes[between] = case.meshes[between].clone().coupled(self.coupling);
-            let gears = Arc::new(self.reduced(&case, &own, between));
-            Ok(Box::new(ExactMesh::new(mesh.pair.clone(), gears, own)?) as Box<dyn MeshElement>)
-        });
-        made.unwrap_or_else(|e| panic!("{e}")).joined()
+        self.meshed(Extent::Periodic)
     }
 
-    /// Both gears, the one between of another stiffness.
-    fn reduced(self, case: &Case, own: &ltca::StaticOptions, between: usize) -> [ElasticGear; 2] {
+    /// The gear between as one sector, or whole and condensed in one factor.
+    fn meshed(self, extent: Extent) -> StaticGearbox {
+        self.of(self.parts().0, extent).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// The same of another structure.
+    fn of(self, structure: Structure, extent: Extent) -> Result<StaticGearbox, GearboxError> {
+        let (_, meshes, run) = self.parts();
+        let made = StaticGearbox::new(structure, meshes, run, |i, mesh, meshing| {
+            let own = options(&mesh.pair, meshing, TORQUE);
+            let mut case = Case::meshed(mesh.pair.clone(), &StructuredOptions { extent, ..SECTOR }, TORQUE);
+            let between = 1 - i;
+            case.meshes[between] = case.meshes[between].clone().coupled(self.coupling);
+            let gears = Arc::new(self.reduced(&case, &own, (between, extent == Extent::Whole)));
+            Ok(Box::new(ExactMesh::new(mesh.pair.clone(), gears, own)?) as Box<dyn MeshElement>)
+        });
+        made.map(StaticGearbox::joined)
+    }
+
+    /// Both gears, the one between of another stiffness; `general`: in one factor each.
+    fn reduced(self, case: &Case, own: &ltca::StaticOptions, (between, general): (usize, bool)) -> [ElasticGear; 2] {
         let steel = Material::STEEL;
         let stiff = Material::new(steel.young_mpa() * self.stiff, steel.poisson(), 7.85e-9).unwrap();
-        case.reduced_gears_of(own, std::array::from_fn(|i| if i == between { stiff } else { steel }))
+        case.reduced_gears_of(own, std::array::from_fn(|i| if i == between { stiff } else { steel }), general)
     }
 }
 
@@ -215,4 +225,96 @@ fn a_stiff_gear_is_a_rigid_ring_on_its_rollers() {
     println!("rigid: {:?}; off by {off:?}", wanted.iter().map(|f| f.round()).collect::<Vec<_>>());
     assert!(off[0] > 0.1, "{off:?}");
     assert!(off[1] < 2e-3 * off[0] * 1e3 && off[2] < 1e-4, "{off:?}");
+}
+
+/// Rollers slide over the sectors of the gear: nothing jumps where one comes from one to the next, nor where a mesh changes its
+/// teeth, and sectors and the whole gear in one factor say the same.
+#[test]
+fn nothing_jumps_where_a_roller_comes_to_another_sector() {
+    let setting = Setting { helix_deg: 12.0, ..SETTING };
+    let [mut sectors, mut whole] = [Extent::Periodic, Extent::Whole].map(|extent| setting.meshed(extent));
+    let step = 1e-9;
+    let zone = |found: &GearboxPosition| -> Vec<f64> {
+        setting.law().zone_of(&found.laminae[2]).iter().map(|own| own.force).collect()
+    };
+    let largest = |a: &[f64], b: &[f64]| {
+        let most = b.iter().copied().fold(0.0, f64::max);
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / most
+    };
+    // A roller is at a cut when the gear has turned by where its first one is.
+    let found = solve(&mut sectors, 0.0);
+    let first = sectors.rollers_on_bore(2).unwrap().angle;
+    let pitch = std::f64::consts::TAU / f64::from(TEETH[1]);
+    let ratio = -f64::from(TEETH[1]) / f64::from(TEETH[0]);
+    drop(found);
+    for (roller, part) in [(0, 0.0), (3, 0.5), (5, 0.0)] {
+        let at = (std::f64::consts::TAU / 16.0 * f64::from(roller) - first) / pitch;
+        let angle = ((at - at.floor()) + part) * pitch * ratio;
+        let [before, after] = [angle - step, angle + step].map(|angle| solve(&mut sectors, angle));
+        let jump = largest(&zone(&after), &zone(&before));
+        let other = solve(&mut whole, angle + step);
+        let apart = largest(&zone(&other), &zone(&after));
+        let lag = (other.output_lags[0] / after.output_lags[0] - 1.0).abs();
+        println!(
+            "roller {roller}: forces move by {jump:.1e}, the whole gear is off by {apart:.1e}, its lag by {lag:.1e}"
+        );
+        assert!(jump < 1e-6, "roller {roller}: forces jump by {jump:e} of the largest");
+        assert!(apart < 1e-8 && lag < 1e-9, "roller {roller}: whole gear off by {apart:e}, {lag:e}");
+    }
+}
+
+/// What does not fit into a bore is refused with its numbers and with what cures it.
+#[test]
+fn rollers_that_do_not_fit_a_bore_are_refused() {
+    let solved = |setting: Setting, change: fn(&mut Structure, RollerGeometry)| {
+        let (mut structure, ..) = setting.parts();
+        change(&mut structure, rollers(setting.bore_mm(), setting.profile));
+        let refused = setting.of(structure, Extent::Periodic).and_then(|mut gearbox| gearbox.solve(0.1)).unwrap_err();
+        let hint = refused.hint().unwrap_or_default();
+        println!("{refused}; {hint}");
+        (refused.to_string(), hint)
+    };
+    for (change, said, cure) in [
+        (
+            (|structure, own| {
+                let own = RollerGeometry { length: 24.0, ..own };
+                let law = made(RollingElements::Rollers(own), &MIDDLE, 0.0, PLAYLESS);
+                structure.bearings[2].law = Some(Arc::new(law));
+            }) as fn(&mut Structure, RollerGeometry),
+            "the rollers lie from -12.000 to 12.000 mm",
+            "element_length_mm",
+        ),
+        (
+            |structure, own| {
+                let own = RollerGeometry { pitch_diameter: 0.9 * own.pitch_diameter, ..own };
+                let law = made(RollingElements::Rollers(own), &MIDDLE, 0.0, PLAYLESS);
+                structure.bearings[2].law = Some(Arc::new(law));
+            },
+            "the outer race of the rollers is",
+            "pitch_diameter_mm",
+        ),
+        (
+            |structure, _| {
+                let law = made(RollingElements::Balls(balls_209()), &MIDDLE, 0.0, PLAYLESS);
+                structure.bearings[2].law = Some(Arc::new(law));
+            },
+            "pressed by cylindrical rollers alone",
+            "cylindrical-roller",
+        ),
+        (|structure, _| structure.bearings[2].bore_of = Some(2), "gear wheel is not on the shaft", "`in_shaft`"),
+        (
+            |structure, _| {
+                let again = structure.bearings[2].clone();
+                structure.bearings.push(again);
+            },
+            "another bearing is in the bore of gear gear",
+            "`rows`",
+        ),
+    ] {
+        let (refused, hint) = solved(SETTING, change);
+        assert!(refused.contains(said) && hint.contains(cure), "{refused}: {hint}");
+    }
+    let rigid = Setting { coupling: BoreCoupling::Kinematic, ..SETTING };
+    let (refused, hint) = solved(rigid, |_, _| ());
+    assert!(refused.contains("`kinematic`") && hint.contains("distributing"), "{refused}: {hint}");
 }

@@ -53,7 +53,7 @@ impl CyclicGear {
     }
 
     /// Coordinates on a copy: number and load.
-    fn on_copy(&self, copy: u32) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
+    pub(super) fn on_copy(&self, copy: u32) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
         let own = self.coordinates.iter().enumerate().filter(move |(_, place)| place.0 == copy);
         own.map(|(i, place)| (i, place.1))
     }

@@ -18,7 +18,9 @@ mod between;
 mod blocks;
 mod chain;
 mod placement;
+mod pressures;
 mod recovery;
+mod seat;
 mod sector;
 mod sector_mesh;
 mod stress;
@@ -35,7 +37,8 @@ use crate::{ReductionError, load::Load};
 pub(crate) use blocks::{ToothBlocks, turned};
 use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
-use sector::Sector;
+use seat::SIX;
+use sector::{SeatedSector, Sector};
 pub(crate) use sector_mesh::SectorMesh;
 pub(crate) use stress::SectorStress;
 pub(crate) use turn::{PitchTurn, face_nodes};
@@ -55,8 +58,31 @@ pub(crate) struct CyclicGear {
     count: u32,
     /// All sectors but one.
     chain: Chain,
-    /// L of K_ring = L L', 2c x 2c: the cuts of that one.
+    /// L of K_ring = L L', 2c x 2c: the cuts of that one; with six springs where the bore is held by its means.
     ring: Mat<f64>,
+    seat: Option<RingSeat>,
+}
+
+/// The seat of a bore that is held by its means in the ring of all sectors, as the cuts of one see it. Theory (13f).
+///
+/// ```text
+/// K~ u_p = H f + H_g g,   g = -M^-1 R' f,   u_c = u_p - R_c M^-1 (G g + H_g' u_p + A_g' f)
+/// ```
+#[derive(Debug)]
+struct RingSeat {
+    /// H_g, 2c x 6, and G, 6 x 6.
+    ends: Mat<f64>,
+    own: Mat<f64>,
+    /// R_c of the cuts, 2c x 6.
+    rigid: Mat<f64>,
+    /// R' of the sector's loads, 6 x 3m.
+    of_loads: Mat<f64>,
+}
+
+/// What loads on one sector do: forces on its cuts and displacement along its seat, 2c (+ 6) x k, and their resultants, 6 x k.
+struct SectorLoads {
+    ends: Mat<f64>,
+    resultants: Mat<f64>,
 }
 
 impl CyclicGear {
@@ -76,11 +102,13 @@ impl CyclicGear {
         let Some(others) = part.teeth.checked_sub(1).filter(|&others| others > 0) else { return Ok(None) };
         let (first, count) = arc(coordinates.iter().map(|c| c.0), part.teeth);
         let sector = Sector::new(&part, material, elements, &own, (keep, known), wanted)?;
-        let chain = Chain::new(&sector.stiffness, others as usize, wanted)?;
+        let seat = sector.seat().map(|seat| seat.row.clone());
+        let chain = Chain::new(&sector.stiffness, seat, others as usize, wanted)?;
         unless_unwanted(wanted)?;
         let ring = ring(&sector, &chain)?;
+        let seat = sector.seat().map(|seat| RingSeat::new(&sector, seat, &chain));
         let (material, elements) = (*material, *elements);
-        Ok(Some(Self { part, sector, material, elements, coordinates, first, count, chain, ring }))
+        Ok(Some(Self { part, sector, material, elements, coordinates, first, count, chain, ring, seat }))
     }
 
     /// The sector's factor.
@@ -107,7 +135,12 @@ impl CyclicGear {
     /// Whether another gear is made of the same sector.
     pub(crate) fn has_sector_of(&self, other: &Self) -> bool {
         let [a, b] = [&self.part, &other.part];
-        a.teeth == b.teeth && a.way == b.way && a.mesh == b.mesh && a.held == b.held && a.bore == b.bore
+        a.teeth == b.teeth
+            && a.way == b.way
+            && a.mesh == b.mesh
+            && a.held == b.held
+            && a.bore == b.bore
+            && a.seat == b.seat
     }
 
     /// Copy and node of the sector under a node of the larger mesh.
@@ -162,9 +195,14 @@ impl CyclicGear {
         ((copy % z + z - self.first) % z) as usize
     }
 
-    /// Displacements of both cuts (2c x k, mm) of the sectors so many (below z) on from one whose loads take `forces`
-    /// (3m x k, N), each in its own frame.
+    /// Displacements of both cuts and loads of the seat (2c (+ 6) x k, mm) of the sectors so many (below z) on from one whose
+    /// loads take `forces` (3m x k, N), each in its own frame.
     fn ends_about(&self, forces: MatRef<'_, f64>, offsets: impl Iterator<Item = u32>) -> BTreeMap<u32, Mat<f64>> {
+        self.ends_under(&self.sector_loads(forces), offsets)
+    }
+
+    /// The same of any loads on one sector.
+    fn ends_under(&self, loads: &SectorLoads, offsets: impl Iterator<Item = u32>) -> BTreeMap<u32, Mat<f64>> {
         let z = self.part.teeth;
         let mut offsets: Vec<u32> = offsets.collect();
         offsets.sort_unstable();
@@ -172,23 +210,54 @@ impl CyclicGear {
         let mut distances: Vec<u32> = offsets.iter().flat_map(|&d| [d, (d + 1) % z]).collect();
         distances.sort_unstable();
         distances.dedup();
-        let cuts = self.cuts_about(forces, &distances);
+        let cuts = self.cuts_under(loads, &distances);
         let at = |distance: u32| cuts[distances.partition_point(|&d| d < distance)].as_ref();
-        offsets.into_iter().map(|d| (d, stacked(at(d), at((d + 1) % z)))).collect()
+        let seat = self.sector.seat().map(|own| (own, own.seat.balance(loads.resultants.as_ref())));
+        let ends = |d: u32| {
+            let cuts = stacked(at(d), at((d + 1) % z));
+            match &seat {
+                Some((own, g)) => stacked(cuts.as_ref(), own.seat.seen_from(g.as_ref(), d).as_ref()),
+                None => cuts,
+            }
+        };
+        offsets.into_iter().map(|d| (d, ends(d))).collect()
     }
 
-    /// Displacements of the cuts (c x k, mm) at some `distances` (below z, in sectors) from the left one of a sector
-    /// whose loads take `forces` (3m x k, N), each in the frame of the sector on its counter-clockwise side.
-    fn cuts_about(&self, forces: MatRef<'_, f64>, distances: &[u32]) -> Vec<Mat<f64>> {
+    /// Forces on the loads of a sector (3m x k, N) as loads on it.
+    fn sector_loads(&self, forces: MatRef<'_, f64>) -> SectorLoads {
+        let resultants = match &self.seat {
+            Some(seat) => dense::product(seat.of_loads.as_ref(), forces),
+            None => Mat::zeros(0, forces.ncols()),
+        };
+        SectorLoads { ends: dense::product(self.sector.transfer.as_ref(), forces), resultants }
+    }
+
+    /// Displacements of the cuts (c x k, mm) at some `distances` (below z, in sectors) from the left one of a loaded sector, each in
+    /// the frame of the sector on its counter-clockwise side.
+    fn cuts_under(&self, loads: &SectorLoads, distances: &[u32]) -> Vec<Mat<f64>> {
         let (c, z) = (self.sector.cut, self.part.teeth);
-        let mut own = dense::product(self.sector.transfer.as_ref(), forces);
+        let mut own = loads.ends.get(..2 * c, ..).to_owned();
+        let balance = self.sector.seat().map(|seat| seat.seat.balance(loads.resultants.as_ref()));
+        if let (Some(seat), Some(g)) = (&self.seat, &balance) {
+            own += dense::product(seat.ends.as_ref(), g.as_ref());
+        }
         dense::solve_lower(self.ring.as_ref(), own.as_mut());
         dense::solve_lower_transposed(self.ring.as_ref(), own.as_mut());
+        if let (Some(seat), Some(g), Some(of_sector)) = (&self.seat, &balance, self.sector.seat()) {
+            let mean = dense::product(seat.own.as_ref(), g.as_ref())
+                + dense::product(seat.ends.transpose(), own.as_ref())
+                + loads.ends.get(2 * c.., ..);
+            own += dense::product(seat.rigid.as_ref(), of_sector.seat.balance(mean.as_ref()).as_ref());
+        }
         let (left, right) = own.as_ref().split_at_row(c);
         // Cut i of the chain is cut i + 1 of the gear; its last one is the sector's left one.
         let in_chain = |&d: &u32| ((d + z - 1) % z) as usize;
         let wanted: Vec<usize> = distances.iter().map(in_chain).collect();
-        let mut found = self.chain.cuts(stacked(right, left).as_ref(), &wanted);
+        let of_chain = match (self.sector.seat(), &balance) {
+            (Some(seat), Some(g)) => seat.seat.seen_from(g.as_ref(), 1),
+            _ => Mat::zeros(SIX, own.ncols()),
+        };
+        let mut found = self.chain.cuts(stacked(right, left).as_ref(), of_chain.as_ref(), &wanted);
         wanted.iter().map(|cut| found.remove(cut).unwrap_or_else(|| left.to_owned())).collect()
     }
 
@@ -204,7 +273,7 @@ impl CyclicGear {
         (to % z + z - from % z) % z
     }
 
-    /// Displacements of both cuts (2c x k, mm) of some copies, each in its own frame, under forces on the coordinates
+    /// Displacements of both cuts and loads of the seat (2c (+ 6) x k, mm) of some copies, each in its own frame, under forces on the coordinates
     /// (N, 3n x k).
     fn ends_of(&self, copies: &[u32], forces: MatRef<'_, f64>) -> Vec<Mat<f64>> {
         let (k, m) = (forces.ncols(), self.sector.loads());
@@ -215,7 +284,7 @@ impl CyclicGear {
         let offsets = copies.iter().flat_map(|&to| self.loaded().map(move |from| self.apart(from, to)));
         let found = self.ends_about(own.as_ref(), offsets);
         let sum = |&to: &u32| {
-            let mut ends = Mat::<f64>::zeros(2 * self.sector.cut, k);
+            let mut ends = Mat::<f64>::zeros(self.sector.ends(), k);
             for (j, from) in self.loaded().enumerate() {
                 if let Some(all) = found.get(&self.apart(from, to)) {
                     ends += all.subcols(j * k, k);
@@ -242,6 +311,27 @@ impl CyclicGear {
     }
 }
 
+impl RingSeat {
+    fn new(sector: &Sector, own: &SeatedSector, chain: &Chain) -> Self {
+        let (c, seat) = (sector.cut, &own.seat);
+        let mut ends = own.row.ends.clone();
+        let mut sum = own.row.own.clone();
+        if let Some(row) = &chain.seat {
+            // The chain is seen from its first sector, the next one; it goes from the right cut to the left one.
+            let seen = |x: MatRef<'_, f64>| seat::turned(x.transpose(), seat.pitch).transpose().to_owned();
+            let of_chain = seen(row.ends.as_ref());
+            ends += stacked(of_chain.get(c.., ..), of_chain.get(..c, ..));
+            sum += seat::turned(seen(row.own.as_ref()).as_ref(), seat.pitch);
+        }
+        Self {
+            ends,
+            own: sum,
+            rigid: sector.rigid_of_cuts(seat),
+            of_loads: sector.rigid_of_loads(seat).transpose().to_owned(),
+        }
+    }
+}
+
 /// L of the stiffness of one sector's cuts in the ring, loads free.
 fn ring(sector: &Sector, chain: &Chain) -> Result<Mat<f64>, ReductionError> {
     let c = sector.cut;
@@ -250,6 +340,10 @@ fn ring(sector: &Sector, chain: &Chain) -> Result<Mat<f64>, ReductionError> {
     for (a, b) in (0..2).flat_map(|a| (0..2).map(move |b| (a, b))) {
         let mut block = stiffness.as_mut().submatrix_mut(a * c, b * c, c, c);
         block += chain.stiffness.as_ref().submatrix((1 - a) * c, (1 - b) * c, c, c);
+    }
+    // A free ring has no factor; loads in balance leave springs without force.
+    for (seat, spring) in sector.seat().iter().flat_map(|own| own.seat.springs.map(|spring| (&own.seat, spring))) {
+        stiffness[(spring, spring)] += seat.stiffness;
     }
     Ok(dense::cholesky(stiffness.as_ref())?)
 }

@@ -21,7 +21,7 @@ impl CyclicGear {
         let loads: Vec<Mat<f64>> = copies.iter().map(|&copy| self.forces_in(copy, forces)).collect();
         let parallel_map =
             |rows: usize, of: &[Mat<f64>]| Mat::from_fn(rows, copies.len() * k, |i, j| of[j / k][(i, j % k)]);
-        let (f, ends) = (parallel_map(self.sector.loads(), &loads), parallel_map(2 * self.sector.cut, &ends));
+        let (f, ends) = (parallel_map(self.sector.loads(), &loads), parallel_map(self.sector.ends(), &ends));
         self.sector.field(self.sector.basis(f.as_ref(), ends.as_ref()).as_ref())
     }
 
@@ -142,6 +142,15 @@ impl CyclicGear {
     pub(crate) fn mass(&self, stiffness: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
         let own = self.sector.mass(&self.material)?;
         let (forces, z) = (stiffness.as_ref(), self.part.teeth);
+        if self.sector.seat().is_some() {
+            // Its seat loads every sector.
+            let copies: Vec<u32> = (0..z).collect();
+            let mut mass = Mat::<f64>::zeros(forces.nrows(), forces.ncols());
+            for (&copy, ends) in copies.iter().zip(&self.ends_of(&copies, forces)) {
+                mass += congruent(&own, &self.sector.basis(self.forces_in(copy, forces).as_ref(), ends.as_ref()));
+            }
+            return Ok(Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| 0.5 * (mass[(i, j)] + mass[(j, i)])));
+        }
         let mut copies: Vec<u32> = self.loaded().collect();
         // The sectors beside the window, whose cuts are the ends of the row of all others.
         copies.extend([(self.first + self.count) % z, (self.first + z - 1) % z]);
@@ -153,7 +162,7 @@ impl CyclicGear {
         }
         let (rest, w, c) = ((z - self.count) as usize, self.count as usize, self.sector.cut);
         if rest > 0 {
-            let chain = Chain::new(&self.sector.stiffness, rest, &|| true)?;
+            let chain = Chain::new(&self.sector.stiffness, None, rest, &|| true)?;
             let unit = Mat::<f64>::identity(2 * c, 2 * c);
             let unloaded = Mat::<f64>::zeros(self.sector.loads(), 2 * c);
             let free = congruent(&own, &self.sector.basis(unloaded.as_ref(), unit.as_ref()));

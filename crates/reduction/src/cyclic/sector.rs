@@ -4,7 +4,11 @@ use faer::{Mat, MatMut, MatRef};
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, Wanted, dense, unless_unwanted};
 use mesh::Mesh;
 
-use super::{SectorMesh, chain::stacked};
+use super::{
+    SectorMesh,
+    chain::{RowSeat, stacked},
+    seat::{SIX, SectorSeat},
+};
 use crate::{ReductionError, elastic_bore::ElasticBore, load::Load};
 
 /// Columns of full length that are held at a time: 256 of 10^5 freedoms are 200 MB.
@@ -24,6 +28,9 @@ const COLUMNS: usize = 256;
 /// | H    | 2c x 3m | 1    | force on the held cuts for a unit load, taken as a load on them             |
 /// | A    | 3m x 3m | mm/N | displacement under the loads with the cuts held                             |
 ///
+/// Of a bore that is held by its means, six loads g on every sector (the seat) follow both cuts among the ends, in the sector's
+/// frame: H and T have six rows and columns more.
+///
 /// Loads on single nodes (`kept`) stand beside the cuts at the end of the factor, so that everything is read off its
 /// last triangle. Source: static condensation, Guyan, AIAA J. 3(2), 1965; the flexibility form of it.
 #[derive(Debug)]
@@ -41,6 +48,31 @@ pub(super) struct Sector {
     pub(super) stiffness: Mat<f64>,
     pub(super) transfer: Mat<f64>,
     pub(super) own: Mat<f64>,
+    seat: Option<SeatedSector>,
+}
+
+/// The seat of a sector, and what it does.
+#[derive(Debug)]
+pub(super) struct SeatedSector {
+    pub seat: SectorSeat,
+    /// Displacement of all freedoms by unit g, loads on kept nodes and cuts held, n x 6.
+    field: Mat<f64>,
+    /// What it does to the cuts, and to itself.
+    pub row: RowSeat,
+}
+
+/// What forces on all freedoms do, columns of them: q.
+pub(super) struct UnderForces {
+    /// Displacement of all freedoms with kept nodes and cuts held, n x q.
+    field: Mat<f64>,
+    /// Forces on both cuts, loads free, and displacement along the seat, 2c (+ 6) x q.
+    pub ends: Mat<f64>,
+    /// Work on themselves with the cuts held, q x q.
+    pub own: Mat<f64>,
+    /// Displacement under the loads with the cuts held, 3m x q.
+    pub on_loads: Mat<f64>,
+    /// Resultants R'f, 6 x q, of a sector with a seat.
+    pub resultants: Mat<f64>,
 }
 
 impl Sector {
@@ -64,7 +96,9 @@ impl Sector {
             boundary = rows(&mut loads.iter().flatten().map(|&(n, _)| n));
         }
         let kept = boundary.len();
-        boundary.extend(rows(&mut free.iter().map(|c| c[0])));
+        let left = rows(&mut free.iter().map(|c| c[0]));
+        let seat = SectorSeat::new(part, &dofs, (&left, material.young_mpa()))?;
+        boundary.extend_from_slice(&left);
         boundary.extend(rows(&mut free.iter().map(|c| c[1])));
         let cut = 3 * free.len();
         let fits = |known: &BoundaryLastFactor| known.n() == dofs.free_count() && known.boundary() == boundary;
@@ -72,7 +106,11 @@ impl Sector {
             Some(known) => known,
             None => {
                 let bore = part.bore.as_ref();
-                let stiffness = ElasticBore::stiffness(bore, &part.mesh, (material, elements), &dofs)?;
+                let mut stiffness = ElasticBore::stiffness(bore, &part.mesh, (material, elements), &dofs)?;
+                // A free sector has no factor.
+                for (seat, spring) in seat.iter().flat_map(|seat| seat.springs.map(|spring| (seat, spring))) {
+                    stiffness.add(left[spring], left[spring], seat.stiffness)?;
+                }
                 BoundaryLastFactor::in_place_of(stiffness, &boundary, wanted)?
             }
         };
@@ -89,16 +127,26 @@ impl Sector {
             stiffness: Mat::new(),
             transfer: Mat::new(),
             own: Mat::new(),
+            seat: None,
         };
-        sector.condense(keep, wanted)?;
+        sector.condense(keep, seat.as_ref(), wanted)?;
+        if let Some(seat) = seat {
+            let UnderForces { field, ends, own, on_loads, .. } = sector.under_forces(seat.forces.as_ref())?;
+            let row = RowSeat { ends, own, pitch: seat.pitch };
+            sector.transfer = stacked(sector.transfer.as_ref(), on_loads.transpose());
+            sector.seat = Some(SeatedSector { seat, field, row });
+        }
         Ok(sector)
     }
 
     /// K_c, H and A.
-    fn condense(&mut self, keep: bool, wanted: Wanted<'_>) -> Result<(), ReductionError> {
+    fn condense(&mut self, keep: bool, seat: Option<&SectorSeat>, wanted: Wanted<'_>) -> Result<(), ReductionError> {
         let (kept, ends) = (self.kept, 2 * self.cut);
         let l = self.factor.boundary_factor();
         let mut stiffness = dense::times_transpose(l.get(kept.., kept..));
+        for (seat, spring) in seat.iter().flat_map(|seat| seat.springs.map(|spring| (seat, spring))) {
+            stiffness[(spring, spring)] -= seat.stiffness;
+        }
         self.next_frame(stiffness.as_mut());
         stiffness = stiffness.transpose().to_owned();
         self.next_frame(stiffness.as_mut());
@@ -132,6 +180,79 @@ impl Sector {
     /// The factor, cuts and kept nodes last.
     pub(super) fn factor(&self) -> &BoundaryLastFactor {
         &self.factor
+    }
+
+    /// The seat, and what it does.
+    pub(super) fn seat(&self) -> Option<&SeatedSector> {
+        self.seat.as_ref()
+    }
+
+    /// Unknowns of both cuts and of the seat, 2c (+ 6).
+    pub(super) fn ends(&self) -> usize {
+        2 * self.cut + self.seat.as_ref().map_or(0, |_| SIX)
+    }
+
+    /// R of the seat under the loads, 3m x 6.
+    pub(super) fn rigid_of_loads(&self, seat: &SectorSeat) -> Mat<f64> {
+        if self.kept > 0 {
+            let rows = &self.factor.boundary()[..self.kept];
+            return Mat::from_fn(self.kept, SIX, |i, k| seat.rigid[(rows[i], k)]);
+        }
+        let mut moved = Mat::<f64>::zeros(3 * self.spread.len(), SIX);
+        for (i, load) in self.spread.iter().enumerate() {
+            for (row, weight, axis) in self.rows(load) {
+                (0..SIX).for_each(|k| moved[(3 * i + axis, k)] += weight * seat.rigid[(row, k)]);
+            }
+        }
+        moved
+    }
+
+    /// R of the seat on both cuts, 2c x 6.
+    pub(super) fn rigid_of_cuts(&self, seat: &SectorSeat) -> Mat<f64> {
+        let rows = &self.factor.boundary()[self.kept..];
+        let mut moved = Mat::from_fn(rows.len(), SIX, |i, k| seat.rigid[(rows[i], k)]);
+        self.next_frame(moved.as_mut());
+        moved
+    }
+
+    /// What forces on all freedoms (n x q, N) do.
+    pub(super) fn under_forces(&self, forces: MatRef<'_, f64>) -> Result<UnderForces, ReductionError> {
+        let held = Mat::zeros(self.factor.boundary().len(), forces.ncols());
+        let field = self.factor.solve_held(forces, held.as_ref())?;
+        let all = self.factor.condense(forces)?;
+        let (on_kept, on_cuts) = all.as_ref().split_at_row(self.kept);
+        let mut ends = on_cuts.to_owned();
+        self.next_frame(ends.as_mut());
+        let mut own = dense::product(forces.transpose(), field.as_ref());
+        let mut resultants = Mat::zeros(0, forces.ncols());
+        let on_loads = if self.kept > 0 {
+            let moved = dense::product(self.own.as_ref(), on_kept);
+            ends += dense::product(self.transfer.get(..2 * self.cut, ..), on_kept);
+            own += dense::product(on_kept.transpose(), moved.as_ref());
+            moved
+        } else {
+            self.under_loads(field.as_ref())
+        };
+        if let Some(SeatedSector { seat, field, .. }) = &self.seat {
+            let mut along = dense::product(field.transpose(), forces);
+            if self.kept > 0 {
+                along += dense::product(self.transfer.get(2 * self.cut.., ..), on_kept);
+            }
+            ends = stacked(ends.as_ref(), along.as_ref());
+            resultants = dense::product(seat.rigid.transpose(), forces);
+        }
+        Ok(UnderForces { field, ends, own, on_loads, resultants })
+    }
+
+    /// Displacements under the loads that are not on kept nodes, of fields, 3m x k.
+    fn under_loads(&self, field: MatRef<'_, f64>) -> Mat<f64> {
+        let mut own = Mat::<f64>::zeros(3 * self.spread.len(), field.ncols());
+        for (i, load) in self.spread.iter().enumerate() {
+            for (row, weight, axis) in self.rows(load) {
+                (0..field.ncols()).for_each(|j| own[(3 * i + axis, j)] += weight * field[(row, j)]);
+            }
+        }
+        own
     }
 
     /// Freedoms of the loads, 3m.
@@ -195,8 +316,8 @@ impl Sector {
         Ok(Mat::from_fn(loads.len(), field.ncols(), entry))
     }
 
-    /// What a field is made of, from loads (3m x k, N) and cuts (2c x k, mm): displacements of kept nodes or loads,
-    /// then cuts.
+    /// What a field is made of, from loads (3m x k, N) and ends (cuts, mm, and seat): displacements of kept nodes or loads,
+    /// then ends.
     pub(super) fn basis(&self, f: MatRef<'_, f64>, ends: MatRef<'_, f64>) -> Mat<f64> {
         if self.kept == 0 {
             return stacked(f, ends);
@@ -207,31 +328,34 @@ impl Sector {
 
     /// Displacement of all free freedoms, n x k, mm, in the sector's frame, of [`Sector::basis`].
     pub(super) fn field(&self, basis: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
-        let mut basis = basis.to_owned();
-        self.own_frame(basis.as_mut());
-        if self.kept > 0 {
-            return Ok(self.factor.expand(basis.as_ref())?);
-        }
+        let (own, by_seat) = basis.split_at_row(basis.nrows() + 2 * self.cut - self.ends());
+        let mut own = own.to_owned();
+        self.own_frame(own.as_mut());
         let count = self.spread.len() * 3;
-        Ok(self.factor.solve_held(self.force(basis.get(..count, ..)).as_ref(), basis.get(count.., ..))?)
+        let mut field = if self.kept > 0 {
+            self.factor.expand(own.as_ref())?
+        } else {
+            self.factor.solve_held(self.force(own.get(..count, ..)).as_ref(), own.get(count.., ..))?
+        };
+        if let Some(seat) = &self.seat {
+            field += dense::product(seat.field.as_ref(), by_seat);
+        }
+        Ok(field)
     }
 
     /// Transpose of [`Sector::field`]: from forces on all freedoms (n x k, N) to those on the basis.
     pub(super) fn adjoint(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
-        let mut ends = self.factor.condense(force)?;
-        self.next_frame(ends.as_mut());
-        if self.kept > 0 {
-            return Ok(ends);
+        let mut all = self.factor.condense(force)?;
+        self.next_frame(all.as_mut());
+        if self.kept == 0 {
+            let held = Mat::zeros(2 * self.cut, force.ncols());
+            let field = self.factor.solve_held(force, held.as_ref())?;
+            all = stacked(self.under_loads(field.as_ref()).as_ref(), all.as_ref());
         }
-        let held = Mat::zeros(2 * self.cut, force.ncols());
-        let field = self.factor.solve_held(force, held.as_ref())?;
-        let mut own = Mat::<f64>::zeros(3 * self.spread.len(), force.ncols());
-        for (i, load) in self.spread.iter().enumerate() {
-            for (row, weight, axis) in self.rows(load) {
-                (0..field.ncols()).for_each(|j| own[(3 * i + axis, j)] += weight * field[(row, j)]);
-            }
+        if let Some(seat) = &self.seat {
+            all = stacked(all.as_ref(), dense::product(seat.field.transpose(), force).as_ref());
         }
-        Ok(stacked(own.as_ref(), ends.as_ref()))
+        Ok(all)
     }
 
     /// Forces on the cuts (2c x k, N) that do the work of forces on all freedoms (n x k, N), the inside following
@@ -256,16 +380,23 @@ impl Sector {
     }
 
     /// Rows of the displacement of all free freedoms for unit loads (3m columns, mm/N) and unit displacements of the cuts
-    /// (2c columns), in the sector's frame.
+    /// (2c columns) and of the seat, in the sector's frame.
     pub(super) fn rows_of_field(&self, rows: &[usize]) -> Result<[Mat<f64>; 2], ReductionError> {
-        let (m, ends) = (self.loads(), 2 * self.cut);
+        let (m, ends) = (self.loads(), self.ends());
         let mut field = Mat::<f64>::zeros(rows.len(), m + ends);
         for start in (0..m + ends).step_by(COLUMNS) {
             let width = (m + ends - start).min(COLUMNS);
-            let mut unit = unit_columns(m + ends, start, width);
+            let unit = unit_columns(m + ends, start, width);
             let block = if self.kept > 0 {
-                self.own_frame(unit.as_mut());
-                self.factor.expand_rows(unit.as_ref(), rows)?
+                let (own, by_seat) = unit.as_ref().split_at_row(m + 2 * self.cut);
+                let mut own = own.to_owned();
+                self.own_frame(own.as_mut());
+                let mut block = self.factor.expand_rows(own.as_ref(), rows)?;
+                if let Some(seat) = &self.seat {
+                    let known = Mat::from_fn(rows.len(), SIX, |i, k| seat.field[(rows[i], k)]);
+                    block += dense::product(known.as_ref(), by_seat);
+                }
+                block
             } else {
                 let all = self.field(unit.as_ref())?;
                 Mat::from_fn(rows.len(), width, |i, j| all[(rows[i], j)])
@@ -284,7 +415,7 @@ impl Sector {
     /// Mass (t) on the basis: the field's mass by congruence, column block by column block.
     pub(super) fn mass(&self, material: &Material) -> Result<Mat<f64>, ReductionError> {
         let mass = fem::assemble_mass(&self.mesh, material, &self.dofs)?;
-        let n = self.loads() + 2 * self.cut;
+        let n = self.loads() + self.ends();
         let mut condensed = Mat::<f64>::zeros(n, n);
         for start in (0..n).step_by(COLUMNS) {
             let width = (n - start).min(COLUMNS);

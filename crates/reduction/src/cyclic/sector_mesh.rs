@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use geometry::Side;
-use mesh::{Copies, ElementBlock, Mesh, MeshedGear, Origin};
+use mesh::{BoreCoupling, Copies, ElementBlock, Face, Mesh, MeshedGear, Origin};
 use nalgebra::{DMatrix, DVector};
 
 use super::turn::{PitchTurn, face_nodes};
-use crate::elastic_bore::ElasticBore;
+use crate::elastic_bore::{ElasticBore, faces_in_part};
 
 /// A sector and the mesh whose nodes lie in its copies.
 ///
@@ -24,6 +24,8 @@ pub(crate) struct SectorMesh {
     pub held: Vec<u32>,
     /// What stands on springs in their place.
     pub bore: Option<ElasticBore>,
+    /// Faces of a bore that is held by its means in their place.
+    pub seat: Option<Vec<Face>>,
     /// Nodes of the left cut and those of the right one on which they fall when turned by one pitch, held ones too.
     pub cuts: Vec<[u32; 2]>,
     /// Copy and node of the sector (never of the right cut) under each node of the larger mesh.
@@ -54,7 +56,8 @@ impl SectorMesh {
         held.dedup();
         let places = copies.origins.clone();
         let bore = ElasticBore::of(sector);
-        Some(Self::new((teeth, sector.numbering_sign()), sector.mesh().clone(), (held, bore), cuts, places))
+        let seat = (sector.bore_coupling() == BoreCoupling::Distributing).then(|| sector.bore().faces.clone());
+        Some(Self::new((teeth, sector.numbering_sign()), sector.mesh().clone(), (held, bore, seat), cuts, places))
     }
 
     /// Sector mesh of a whole gear that is cyclic: the elements about tooth 0.
@@ -112,14 +115,17 @@ impl SectorMesh {
         let nodes = own.iter().map(|&n| mesh.nodes[n as usize]).collect();
         let node_tags = own.iter().map(|&n| mesh.node_tags[n as usize]).collect();
         let part = Mesh { nodes, node_tags, blocks, ..Mesh::default() };
-        let bore = ElasticBore::of(gear).map(|bore| bore.in_part(&part, |n| used[n as usize].then(|| number(n))));
-        Some(Self::new((teeth, gear.numbering_sign()), part, (held, bore), cuts, places))
+        let in_part = |n: u32| used[n as usize].then(|| number(n));
+        let bore = ElasticBore::of(gear).map(|bore| bore.in_part(&part, in_part));
+        let by_means = gear.bore_coupling() == BoreCoupling::Distributing;
+        let seat = by_means.then(|| faces_in_part(&gear.bore().faces, &part, in_part));
+        Some(Self::new((teeth, gear.numbering_sign()), part, (held, bore, seat), cuts, places))
     }
 
     fn new(
         (teeth, way): (u32, f64),
         mesh: Mesh,
-        (held, bore): (Vec<u32>, Option<ElasticBore>),
+        (held, bore, seat): (Vec<u32>, Option<ElasticBore>, Option<Vec<Face>>),
         cuts: Vec<[u32; 2]>,
         places: Vec<Origin>,
     ) -> Self {
@@ -128,7 +134,7 @@ impl SectorMesh {
         for (place, number) in places.iter().zip(0..) {
             numbers[place.copy as usize * count + place.node as usize] = number;
         }
-        Self { teeth, way, mesh, held, bore, cuts, places, numbers }
+        Self { teeth, way, mesh, held, bore, seat, cuts, places, numbers }
     }
 
     /// The larger mesh's node at a place.

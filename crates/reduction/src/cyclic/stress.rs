@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use fem::{StressOperator, dense};
 use mesh::Face;
 
-use super::{CyclicGear, recovery::Share};
+use super::{CyclicGear, recovery::Share, seat::turned};
 use crate::{ReductionError, stress_recovery::StressRecovery};
 
 /// Stress at some nodes under forces on the coordinates, in the frame of copy 0.
@@ -42,6 +42,8 @@ struct NearField {
     by_cut: Mat<f64>,
     /// V, one below the other.
     cuts: Mat<f64>,
+    /// Loads of the seat by forces on the loads of one sector, in its frame, 6 x 3m; none of other bores.
+    seat: Mat<f64>,
     /// Loaded copies: turn of their frame.
     loaded: Vec<[[f64; 3]; 3]>,
     /// Loaded copy and load of each coordinate node.
@@ -58,12 +60,15 @@ struct FieldCopy {
     turn: [[f64; 6]; 6],
     /// For each loaded copy the place among V of left and right cut.
     cuts: Vec<[usize; 2]>,
+    /// For each loaded copy the angle from its frame to this one's, rad.
+    angles: Vec<f64>,
 }
 
 impl NearField {
     /// u of every copy, one after the other, s x (copies k), for forces on the coordinates (N, n x k).
     fn under(&self, forces: MatRef<'_, f64>) -> Mat<f64> {
-        let (k, loads, c) = (forces.ncols(), self.by_load.ncols(), self.by_cut.ncols() / 2);
+        let (k, loads, six) = (forces.ncols(), self.by_load.ncols(), self.seat.nrows());
+        let c = (self.by_cut.ncols() - six) / 2;
         let mut own = Mat::<f64>::zeros(loads, k * self.loaded.len());
         for (i, &(from, load)) in self.coordinates.iter().enumerate() {
             for (j, b) in (0..k).flat_map(|j| (0..3).map(move |b| (j, b))) {
@@ -72,7 +77,8 @@ impl NearField {
             }
         }
         let moved = dense::product(self.cuts.as_ref(), own.as_ref());
-        let mut ends = Mat::<f64>::zeros(2 * c, k * self.copies.len());
+        let balanced = dense::product(self.seat.as_ref(), own.as_ref());
+        let mut ends = Mat::<f64>::zeros(2 * c + six, k * self.copies.len());
         let mut loaded = Mat::<f64>::zeros(loads, k * self.copies.len());
         for (to, copy) in self.copies.iter().enumerate() {
             for (from, cuts) in copy.cuts.iter().enumerate() {
@@ -80,6 +86,10 @@ impl NearField {
                     let mut sum = ends.as_mut().submatrix_mut(end * c, k * to, c, k);
                     sum += moved.submatrix(cut * c, k * from, c, k);
                 }
+            }
+            for (from, &angle) in copy.angles.iter().enumerate().filter(|_| six > 0) {
+                let mut sum = ends.as_mut().submatrix_mut(2 * c, k * to, six, k);
+                sum += turned(balanced.subcols(k * from, k), -angle);
             }
             if let Some(from) = copy.loaded {
                 loaded.as_mut().subcols_mut(k * to, k).copy_from(own.subcols(k * from, k));
@@ -185,8 +195,9 @@ impl CyclicGear {
         distances.sort_unstable();
         distances.dedup();
         let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
+        let loads = self.sector_loads(unit.as_ref());
         let mut cuts = Mat::zeros(distances.len() * self.sector.cut, unit.ncols());
-        for (i, cut) in self.cuts_about(unit.as_ref(), &distances).iter().enumerate() {
+        for (i, cut) in self.cuts_under(&loads, &distances).iter().enumerate() {
             cuts.as_mut().subrows_mut(i * self.sector.cut, self.sector.cut).copy_from(cut);
         }
         let at = |distance: u32| distances.partition_point(|&d| d < distance);
@@ -194,7 +205,9 @@ impl CyclicGear {
             loaded: loaded.iter().position(|from| from == to),
             turn: tensor_turn(self.angle(*to)),
             cuts: apart(to).map(|ends| ends.map(at)).collect(),
+            angles: loaded.iter().map(|from| self.angle(self.apart(*from, *to))).collect(),
         };
+        let seat = self.sector.seat().map(|own| own.seat.balance(loads.resultants.as_ref()));
         let of = |&(copy, load): &(u32, usize)| (loaded.iter().position(|&l| l == copy).unwrap_or(0), load);
         let rows: Vec<usize> = moved.iter().flat_map(|&place| 3 * place..3 * place + 3).collect();
         let [by_load, by_cut] = self.sector.rows_of_field(&rows)?;
@@ -202,6 +215,7 @@ impl CyclicGear {
             by_load,
             by_cut,
             cuts,
+            seat: seat.unwrap_or_else(|| Mat::zeros(0, unit.ncols())),
             loaded: loaded.iter().map(|&from| self.turn(from)).collect(),
             coordinates: self.coordinates.iter().map(of).collect(),
             copies: copies.iter().map(copy).collect(),

@@ -6,6 +6,9 @@
 //! K_n = K_ll + K_rr + e^{i psi} K_lr + e^{-i psi} K_rl       of a cut, Hermitian
 //! K^-1 f:  K_n u_c = f_l + e^{-i psi} f_r,   u = X f + T [u_c; e^{i psi} u_c]
 //! ```
+//! A bore that is held by its means leaves harmonics 0 and 1 free to move as a whole: there forces are put in balance, springs stand
+//! on the cut, and displacements are settled (theory (13f)).
+//!
 //! One factor of one sector serves all harmonics; each harmonic also has a dense factor of the size of a cut. Complex
 //! vectors are stored as pairs of real ones, the imaginary part below the real part.
 
@@ -14,7 +17,11 @@ use std::f64::consts::TAU;
 use faer::{Mat, MatRef};
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix, dense};
 
-use super::{Sector, SectorMesh, chain::stacked};
+use super::{
+    Sector, SectorMesh,
+    chain::stacked,
+    seat::{SIX, Settled, turned},
+};
 use crate::{ReductionError, modes::Pencil};
 
 /// One sector with its mass, and nothing held but the bore.
@@ -62,7 +69,43 @@ impl VibratingSector {
     /// Motion of any kind: all sectors one above the other.
     pub(crate) fn ring(&self) -> Result<Ring<'_>, ReductionError> {
         let cuts = (0..=self.teeth / 2).map(|n| CutFactor::new(self, n)).collect::<Result<_, _>>()?;
-        Ok(Ring { of: self, cuts })
+        let Some(own) = self.sector.seat() else { return Ok(Ring { of: self, cuts, seat: None }) };
+        // Motions of the whole gear, sector by sector.
+        let n = self.dofs().free_count();
+        let all = |of_sector: &Mat<f64>| {
+            let mut all = Mat::<f64>::zeros(n * self.teeth as usize, SIX);
+            for k in 0..self.teeth as usize {
+                // X D = (D' X')'.
+                let seen = turned(of_sector.transpose(), own.seat.pitch * k as f64).transpose().to_owned();
+                all.as_mut().subrows_mut(n * k, n).copy_from(seen);
+            }
+            all
+        };
+        let seat = Settled::new(all(&own.seat.rigid), all(&own.seat.forces)).ok_or(NO_MEAN_TURN)?;
+        Ok(Ring { of: self, cuts, seat: Some(seat) })
+    }
+
+    /// Motions of the gear as a whole with so many waves, or the seat's forces, parts one above the other; none of other waves.
+    ///
+    /// ```text
+    /// waves 0: along z, about z;   1: x + i w y, of displacement and turn, and i times these      w: way of the sectors
+    /// ```
+    fn of_waves(&self, of_sector: &Mat<f64>, waves: u32) -> Option<Mat<f64>> {
+        let n = of_sector.nrows();
+        match waves {
+            0 => Some(Mat::from_fn(n, 2, |i, j| of_sector[(i, [2, 5][j])])),
+            1 => Some(Mat::from_fn(2 * n, 4, |i, j| {
+                let (row, first) = (i % n, [0, 3][j / 2]);
+                let [re, im] = [of_sector[(row, first)], self.way * of_sector[(row, first + 1)]];
+                match (i / n, j % 2) {
+                    (0, 0) => re,
+                    (0, _) => -im,
+                    (_, 0) => im,
+                    _ => re,
+                }
+            })),
+            _ => None,
+        }
     }
 
     /// M x of vectors whose parts stand one above the other.
@@ -78,9 +121,14 @@ struct CutFactor {
     sin: f64,
     /// Real parts alone, or real and imaginary ones.
     parts: usize,
-    /// L of K_n = L L' or, with imaginary parts, of [Re -Im; Im Re].
+    /// L of K_n = L L' or, with imaginary parts, of [Re -Im; Im Re]; with springs where the gear is free.
     factor: Mat<f64>,
+    /// What settles a gear that is free.
+    seat: Option<Settled>,
 }
+
+/// A bore held by its means that holds no turn is refused before its vibration is asked for.
+const NO_MEAN_TURN: ReductionError = ReductionError::NoMeanTurn { faces: 0 };
 
 impl CutFactor {
     fn new(of: &VibratingSector, waves: u32) -> Result<Self, ReductionError> {
@@ -92,13 +140,24 @@ impl CutFactor {
             block(0, 0)[(i, j)] + block(1, 1)[(i, j)] + cos * (block(0, 1)[(i, j)] + block(1, 0)[(i, j)])
         };
         let imaginary = |i: usize, j: usize| sin * (block(0, 1)[(i, j)] - block(1, 0)[(i, j)]);
-        let stiffness = Mat::from_fn(parts * c, parts * c, |i, j| match (i / c.max(1), j / c.max(1)) {
+        let mut stiffness = Mat::from_fn(parts * c, parts * c, |i, j| match (i / c.max(1), j / c.max(1)) {
             (0, 0) => real(i, j),
             (1, 1) => real(i - c, j - c),
             (1, _) => imaginary(i - c, j),
             _ => -imaginary(i, j - c),
         });
-        Ok(Self { cos, sin, parts, factor: dense::cholesky(stiffness.as_ref())? })
+        let mut seat = None;
+        if let Some(own) = of.sector.seat().map(|own| &own.seat)
+            && let (Some(rigid), Some(forces)) = (of.of_waves(&own.rigid, waves), of.of_waves(&own.forces, waves))
+        {
+            let springs = own.springs_of(&rigid, parts);
+            seat = Some(Settled::new(rigid, forces).ok_or(NO_MEAN_TURN)?);
+            for (spring, part) in springs.into_iter().flat_map(|spring| (0..parts).map(move |part| (spring, part))) {
+                let at = part * c + spring;
+                stiffness[(at, at)] += own.stiffness;
+            }
+        }
+        Ok(Self { cos, sin, parts, factor: dense::cholesky(stiffness.as_ref())?, seat })
     }
 
     /// Displacement of the left cut, parts one above the other, for forces on it.
@@ -136,7 +195,8 @@ impl Pencil for Harmonic<'_> {
     fn follow(&self, f: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
         let CutFactor { cos, sin, parts, .. } = self.cut;
         let (sector, c) = (&self.of.sector, self.of.sector.cut);
-        let force = apart(f, parts);
+        let balanced = self.cut.seat.as_ref().map(|seat| seat.balanced(f));
+        let force = apart(balanced.as_ref().map_or(f, |own| own.as_ref()), parts);
         let ends = sector.ends_under(force.as_ref())?;
         // Columns of the same vector stand side by side: real, imaginary.
         let part = |row: usize, j: usize, part: usize| if part < parts { ends[(row, parts * j + part)] } else { 0.0 };
@@ -157,7 +217,8 @@ impl Pencil for Harmonic<'_> {
                 _ => cos * at(i, j, 1) + sin * at(i, j, 0),
             }
         });
-        Ok(together(&sector.field_under(force.as_ref(), &ends)?, parts))
+        let field = together(&sector.field_under(force.as_ref(), &ends)?, parts);
+        Ok(self.cut.seat.as_ref().map_or_else(|| field.clone(), |seat| seat.settled(field.as_ref())))
     }
 }
 
@@ -166,6 +227,8 @@ impl Pencil for Harmonic<'_> {
 pub(crate) struct Ring<'a> {
     of: &'a VibratingSector,
     cuts: Vec<CutFactor>,
+    /// What settles a gear that is free.
+    seat: Option<Settled>,
 }
 
 impl Ring<'_> {
@@ -211,7 +274,8 @@ impl Pencil for Ring<'_> {
 
     fn follow(&self, f: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
         let (z, c) = (self.of.teeth as usize, self.of.sector.cut);
-        let force = apart(f, z);
+        let balanced = self.seat.as_ref().map(|seat| seat.balanced(f));
+        let force = apart(balanced.as_ref().map_or(f, |own| own.as_ref()), z);
         let ends = self.of.sector.ends_under(force.as_ref())?;
         // The right cut of the sector before is the left one of this.
         let before = |column: usize| column - column % z + (column % z + z - 1) % z;
@@ -220,7 +284,8 @@ impl Pencil for Ring<'_> {
         let after = |column: usize| column - column % z + (column % z + 1) % z;
         let right = Mat::from_fn(c, left.ncols(), |i, column| left[(i, after(column))]);
         let ends = stacked(left.as_ref(), right.as_ref());
-        Ok(together(&self.of.sector.field_under(force.as_ref(), &ends)?, z))
+        let field = together(&self.of.sector.field_under(force.as_ref(), &ends)?, z);
+        Ok(self.seat.as_ref().map_or_else(|| field.clone(), |seat| seat.settled(field.as_ref())))
     }
 }
 

@@ -108,12 +108,14 @@ fn range(a: &Mat<f64>, b: &Mat<f64>) -> [f64; 2] {
 fn a_mean_seat_is_that_of_the_whole_gear() {
     let all = [-4.0, 4.0];
     // Two elements along the face, so that half of them can be held.
-    for (order, fine, held) in [(1, 1, all), (2, 1, all), (1, 2, [0.0, 4.0])] {
+    let both = [(1, 1, all), (2, 1, all), (1, 2, [0.0, 4.0])].into_iter().flat_map(|own| [(own, false), (own, true)]);
+    for ((order, fine, held), general) in both {
         let mesh = meshed(&gear(11, 12.0), order, fine, Extent::Whole).held_between(held).unwrap();
         let mesh = by_means(mesh);
         let whole = Whole::new(&mesh);
-        let reducer = GearReducer::new(mesh, Material::STEEL, options(&[Side::Left], 2, 10)).unwrap();
-        assert_eq!(reducer.way(), ReductionWay::General);
+        let make = if general { GearReducer::general } else { GearReducer::new };
+        let reducer = make(mesh, Material::STEEL, options(&[Side::Left], 2, 10)).unwrap();
+        assert_eq!(reducer.way(), if general { ReductionWay::General } else { ReductionWay::CyclicSector });
         let window = reducer.window(10).unwrap();
         let nodes = &window.reduced.nodes;
         let row = |i: usize| whole.dofs.dof(nodes[i / 3], i % 3).unwrap();
@@ -152,7 +154,8 @@ fn a_mean_seat_is_that_of_the_whole_gear() {
         let [load, held] = [sums(&(&unit * &f)), sums(&(&whole.means * (&reactions * &f)))];
         let balance = (load[0] - held[0]).norm() / load[0].norm() + (load[1] - held[1]).norm() / load[1].norm();
         println!(
-            "order {order}: C {c:.1e}, field {apart:.1e}, means {mean:.1e}, left {:.1e}, balance {balance:.1e}",
+            "order {order}, {:?}: C {c:.1e}, field {apart:.1e}, means {mean:.1e}, left {:.1e}, balance {balance:.1e}",
+            reducer.way(),
             left.amax()
         );
         assert!(c < 1e-8, "order {order}: C differs by {c:e} of its largest entry");
@@ -243,7 +246,13 @@ fn modes_of_a_mean_seat_are_those_of_the_whole_gear() {
     };
     let wanted = natural_modes(&of(&whole.stiffness), &of(&whole.mass)).unwrap();
     let make = |mesh| GearReducer::new(mesh, Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
-    let found = make(by_means(mesh.clone())).modes(ModeChoice::Count(6)).unwrap().frequencies_hz();
+    let free = make(by_means(mesh.clone()));
+    let found = free.modes(ModeChoice::Count(6)).unwrap().frequencies_hz();
+    // Flanks held: all harmonics of the ring together.
+    let general = GearReducer::general(by_means(mesh.clone()), Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
+    let [own, other] = [&free, &general].map(|reducer| reducer.lowest_frequencies().unwrap().flanks_held_hz);
+    println!("flanks held: {own:.1} Hz by sectors, {other:.1} Hz by the whole");
+    assert!((own / other - 1.0).abs() < 1e-6, "flanks held: {own} Hz by sectors, {other} Hz by the whole");
     let rigid = make(mesh).modes(ModeChoice::Count(6)).unwrap().frequencies_hz();
     for (i, hz) in found.iter().enumerate() {
         let exact = wanted.frequencies[i] / std::f64::consts::TAU;

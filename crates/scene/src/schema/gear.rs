@@ -76,7 +76,7 @@ table! {
     /// `[pinion.bore]`
     BORE, RawBore => BoreScene Copy; defaults: "how the shaft holds the bore; models with a mesh, without `[accuracy]`"; {
         held_mm: numbers() => {Option<[f64; 2]>}, "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it. Held are faces of the mesh that lie between the two as a whole; the mesher has rows of faces every face width over `elements_face`";
-        coupling: word(Coupling), "how the bore follows the shaft. kinematic: every node moves with the shaft's cross-section, a rigid bore; distributing: the bore deforms, its area-weighted mean displacement and turn are the shaft's, and the whole gear is condensed in one factor (not of the model full); elastic: it stands on springs, all around or at `bolts`, on the shaft's cross-section";
+        coupling: word(Coupling), "how the bore follows the shaft. kinematic: every node moves with the shaft's cross-section, a rigid bore; distributing: the bore deforms, its area-weighted mean displacement and turn are the shaft's (not of the model full); elastic: it stands on springs, all around or at `bolts`, on the shaft's cross-section";
         radial_n_per_mm3: number(0.0, 1e9, 0.0), "stiffness of an elastic bore per area, N/mm per mm^2, along the radius";
         tangential_n_per_mm3: number(0.0, 1e9, 0.0), "along the circumference, above 0 here or at `bolts`; where the bore passes no torque, as on a bearing, any small one will do";
         axial_n_per_mm3: number(0.0, 1e9, 0.0), "along the axis, likewise";

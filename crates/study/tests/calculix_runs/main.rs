@@ -4,6 +4,7 @@
 #[path = "../calculix_pair/mod.rs"]
 mod calculix_pair;
 mod gearbox_modes;
+mod planet_on_rollers;
 
 use std::process::ExitCode;
 
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         .needing(&calculix, "calculix_balances_the_torque", balances_the_torque)
         .needing(&calculix, "calculix_agrees_on_a_planet_in_its_ring", agrees_on_a_planet_in_its_ring)
         .needing(&calculix, "calculix_agrees_on_a_box_of_elastic_gears", gearbox_modes::elastic_gears_in_a_box)
+        .needing(&calculix, "calculix_agrees_on_a_planet_on_rollers", planet_on_rollers::agrees_on_a_planet_on_rollers)
         .run()
 }
 
