@@ -94,6 +94,7 @@ fn every_key_is_in_a_scene_that_runs() {
         "resonance_curve.toml",
         "planet_in_ring.toml",
         "idler.toml",
+        "idler_on_rollers.toml",
         "double_helical.toml",
         "planetary_stage.toml",
         "planetary_stage_ring_fixed.toml",
