@@ -96,7 +96,7 @@ pub struct MeasuredBound {
     pub key: String,
     /// Exact value less that of the run.
     pub error: f64,
-    /// Known part of it, and the bound of the rest, without the factor of the calibration.
+    /// Known part of it, and the bound of the rest before the factor of the calibration.
     pub known: f64,
     pub within: f64,
     /// Size of the number.
@@ -104,14 +104,14 @@ pub struct MeasuredBound {
 }
 
 impl MeasuredBound {
-    /// Of a bound and the exact number; `factor`: what the calibration has made it times.
-    fn new((bound, exact): &(Bound, f64), factor: f64) -> Self {
+    /// Of a bound and the exact number.
+    fn new((bound, exact): &(Bound, f64)) -> Self {
         let (above, below) = (bound.above, bound.below);
         Self {
             key: bound.quantity.key().to_owned(),
             error: exact - bound.value,
             known: 0.5 * (above - below),
-            within: 0.5 * (above + below) / factor,
+            within: bound.uncalibrated,
             scale: exact.abs(),
         }
     }
@@ -142,11 +142,11 @@ impl MeasuredBound {
 ///
 /// # Errors
 /// Why it has none.
-pub fn measured(file: &Gearbox, shares: &[f64], factor: impl Fn(Quantity) -> f64) -> Result<Value, Failure> {
+pub fn measured(file: &Gearbox, shares: &[f64]) -> Result<Value, Failure> {
     let exact = Exact::of(file)?;
     let run = |share: &f64| -> Result<Value, Failure> {
         let all = exact.beside(file, *share)?;
-        let bounds = all.iter().map(|own| MeasuredBound::new(own, factor(own.0.quantity)).to_json());
+        let bounds = all.iter().map(|own| MeasuredBound::new(own).to_json());
         Ok(json!({ "asked": share, "bounds": bounds.collect::<Vec<_>>() }))
     };
     Ok(json!({ "runs": shares.iter().map(run).collect::<Result<Vec<_>, _>>()? }))

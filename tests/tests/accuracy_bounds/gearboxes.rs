@@ -15,7 +15,7 @@ fn measured(lines: &str) -> (Vec<u64>, Vec<MeasuredBound>) {
     (seeds, lines.iter().flat_map(bounds_of).collect())
 }
 
-/// At least 95 in 100 numbers of gearboxes that took no part lie inside of their bounds; without the factors the peak to peak
+/// At least 95 in 100 numbers of gearboxes that took no part lie inside of what the factors leave of their bounds; without the factors the peak to peak
 /// had bounds of some sixty times its error, in the median.
 #[test]
 fn bounds_hold_for_gearboxes_that_took_no_part() {

@@ -79,6 +79,9 @@ described::described! {
         pub corrected_within: f64,
         /// parts of the bound, by cause
         pub terms: Vec<Term>,
+        /// sum of the amounts before a factor of the calibration of gearboxes
+        #[serde(skip)]
+        pub uncalibrated: f64,
         /// bound that the scene asks for; missing where it asks for none
         #[serde(skip_serializing_if = "Option::is_none")]
         pub asked: Option<f64>,
@@ -108,6 +111,7 @@ impl Bound {
             corrected: sum(&terms),
             corrected_within: terms.iter().map(|t| t.amount).sum(),
             terms,
+            uncalibrated: within,
             asked: None,
             met: None,
         }

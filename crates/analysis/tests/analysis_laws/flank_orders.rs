@@ -141,3 +141,43 @@ fn rates_by_gaps_add_up_to_a_turn_of_all() {
         }
     }
 }
+
+/// One turn of 30 teeth at 32 positions a mesh: flanks by tooth take at most 1.5 times what one flank for all teeth takes, the
+/// best of three runs each, in turn.
+#[test]
+#[ignore = "half a minute, and times of a quiet machine"]
+fn flanks_by_tooth_cost_half_as_much_again_at_most() {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |tooth: u32, roll: f64| 0.3 * (GHOST * (roll - TAU * f64::from(tooth) / f64::from(TEETH))).cos();
+    let files = [("one.csv", false), ("by_tooth.csv", true)].map(|(name, by_tooth)| {
+        topography(folder.path(), name, |tooth, roll| wave(if by_tooth { tooth } else { 0 }, roll))
+    });
+    for helix_deg in [0.0, 20.0] {
+        let scenes = files.each_ref().map(|file| {
+            let pair = Scene::builder().pinion(TEETH, helix_deg).wheel(TEETH).normal_module_mm(3.0).face_width_mm(20.0);
+            let pair = ["pinion", "wheel"]
+                .iter()
+                .fold(pair, |pair, gear| pair.set(&format!("{gear}.thickness_allowance_mm"), 0.05));
+            let pair = pair.torque_nm(150.0).set("pinion.modification.drive.topography", file.as_str());
+            pair.set("analysis.turn", "pinion").set("analysis.positions_per_cycle", 32).build().unwrap()
+        });
+        let mut best = [f64::INFINITY; 2];
+        for k in [0, 1, 0, 1, 0, 1] {
+            let start = std::time::Instant::now();
+            StaticAnalysis::new(&scenes[k]).solve().unwrap();
+            best[k] = best[k].min(start.elapsed().as_secs_f64());
+        }
+        println!("helix {helix_deg} deg: {:.2} times", best[1] / best[0]);
+        assert!(best[1] <= 1.5 * best[0], "{best:?} s");
+    }
+}
+
+/// Mesh cycles of a turn of either gear, and until the same teeth meet again.
+#[test]
+fn turns_are_counted_in_mesh_cycles() {
+    let cycles = |word: &str| {
+        let pair = Scene::builder().pinion(20, 0.0).wheel(30).normal_module_mm(3.0).face_width_mm(20.0);
+        pair.torque_nm(100.0).set("analysis.turn", word).build().unwrap().analysis.cycles
+    };
+    assert_eq!(["pinion", "wheel", "hunting"].map(cycles), [20, 30, 60]);
+}

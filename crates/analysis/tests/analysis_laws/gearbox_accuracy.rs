@@ -174,6 +174,6 @@ fn what_cannot_be_kept_fails() {
     // Linear elements are 10 % too stiff: the mesh is most of the bound.
     let own = bound(&result, Quantity::MeanSte);
     assert!(own.by(Cause::Mesh) > 0.5 * own.largest() && own.met == Some(false), "{own:?}");
-    let left = accuracy.not_covered.iter().any(|said| said.contains("have no laws"));
+    let left = accuracy.not_covered.iter().any(|said| said.contains("are differences between settings"));
     assert!(left, "{:?}", accuracy.not_covered);
 }

@@ -62,21 +62,31 @@ impl Seen<'_> {
         let asked = &self.file.accuracy;
         let all = self.own.all().filter(|(_, value)| value.is_finite());
         all.map(|(which, value)| {
-            let own = Bound::new(which.quantity, value, self.terms(which, value)).of(which.name(self.file));
-            own.against(asked.of(which.quantity))
+            let (terms, uncalibrated) = self.terms(which, value);
+            let own = Bound { uncalibrated, ..Bound::new(which.quantity, value, terms) };
+            own.of(which.name(self.file)).against(asked.of(which.quantity))
         })
         .collect()
     }
 
-    /// Parts of the bound of a value, by the share that errors of gearboxes like this one fill of it. Theory (67c).
-    fn terms(&self, which: Which, value: f64) -> Vec<Term> {
+    /// Parts of the bound of a value: by laws of pairs, or by what is wider, of which errors of gearboxes like this one fill a
+    /// share. Theory (67c). Beside them the sum of the amounts without that share.
+    fn terms(&self, which: Which, value: f64) -> (Vec<Term>, f64) {
         let covered = GearboxCalibration::covers(self.file);
         let factor = if covered { GearboxCalibration::committed().factor(which.quantity) } else { 1.0 };
+        let mut uncalibrated = 0.0;
+        let is_largest = matches!(which.quantity, Quantity::PeakToPeakSte | Quantity::MaxPressure);
         let term = |cause| {
-            let term = self.with_law(which, value, (cause, self.seen(which, value, cause)));
-            Term { amount: factor * term.amount, ..term }
+            let law = self.law(which, value, cause);
+            // What positions miss of a largest value is just what its law is about, and sharper.
+            let is_known = law.is_some() && is_largest && cause == Cause::Positions;
+            let seen = if is_known { 0.0 } else { self.seen(which, value, cause) };
+            let [known, law] = law.unwrap_or_default();
+            let whole = crate::worse(law, seen);
+            uncalibrated += whole;
+            Term { cause, known, amount: crate::worse(law, factor * whole) }
         };
-        CAUSES.map(term).to_vec()
+        (CAUSES.map(term).to_vec(), uncalibrated)
     }
 
     /// What differences between settings say of a cause.
@@ -113,28 +123,23 @@ impl Seen<'_> {
         }
     }
 
-    /// The larger of what is seen and of what laws of pairs say; these know a part of it besides.
+    /// What laws of pairs say of a cause: known part and amount; `None` where they say nothing.
     ///
     /// An error of the teeth's compliance is one of their transmission error whatever stands in series with them, so its
     /// amount holds in the gearbox; of the pressure its share holds. A natural frequency is off by half of what the
     /// stiffness of each mesh is, times the share of strain energy in it.
-    fn with_law(&self, which: Which, value: f64, (cause, seen): (Cause, f64)) -> Term {
+    fn law(&self, which: Which, value: f64, cause: Cause) -> Option<[f64; 2]> {
         let of_pair = |quantity: Quantity, scale: &dyn Fn(&Bound) -> f64| {
             let own = bound(&self.pairs[which.place], quantity)?;
             let term = own.terms.iter().find(|term| term.cause == cause)?;
             Some([term.known, term.amount].map(|x| scale(own) * x))
         };
-        let law = match which.quantity {
+        match which.quantity {
             Quantity::MeanSte | Quantity::PeakToPeakSte => of_pair(which.quantity, &|_| 1.0),
             Quantity::MaxPressure => of_pair(which.quantity, &|own| value / own.value),
             Quantity::NaturalFrequency => self.frequency(cause).map(|share| [0.0, share * value]),
             _ => None,
-        };
-        // What positions miss of a largest value is just what its law is about, and sharper.
-        let is_largest = matches!(which.quantity, Quantity::PeakToPeakSte | Quantity::MaxPressure);
-        let seen = if law.is_some() && is_largest && cause == Cause::Positions { 0.0 } else { seen };
-        let [known, amount] = law.unwrap_or_default();
-        Term { cause, known, amount: crate::worse(amount, seen) }
+        }
     }
 
     /// What errors of the mesh stiffnesses make of the lowest natural frequency, over itself. Theory (67b).

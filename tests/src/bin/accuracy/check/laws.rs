@@ -78,7 +78,7 @@ fn gearboxes(lines: &[Value]) {
         return;
     }
     println!(
-        "{} gearboxes that no factor was made of\n\n| number | bounds | hold | median bound over error |\n|---|---|---|---|",
+        "{} gearboxes that no factor was made of, without the laws of pairs\n\n| number | bounds | hold | median bound over error |\n|---|---|---|---|",
         all.len()
     );
     for q in QUANTITIES {

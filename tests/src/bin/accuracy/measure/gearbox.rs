@@ -15,7 +15,6 @@ pub(super) fn measure(seed: u64, word: Option<&str>) -> Result<Measure, Failure>
     }
     Ok(Box::new(move |index| {
         let file = random_gearbox(seed, index)?;
-        let factor = |q| analysis::gearbox::GearboxCalibration::committed().factor(q);
-        Some(vec![measured(&file, &ASKED, factor).unwrap_or_else(|e| json!({ "error": e.to_string() }))])
+        Some(vec![measured(&file, &ASKED).unwrap_or_else(|e| json!({ "error": e.to_string() }))])
     }))
 }
