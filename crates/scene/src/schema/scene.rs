@@ -196,7 +196,7 @@ table! {
     OUTPUT, RawOutput => OutputScene Eq: "what is computed and written on request"; {
         root_stress: switch(false), "stress in the root fillets at every position or row (reduced and full at rest, reduced in motion, meshes of gearboxes at rest)";
         contact_lines: switch(false), "contact_lines.csv: every loaded slice of every position (method slice)";
-        flank_orders: switch(false), "te_orders.csv and te_shares.csv: orders of the transmission error over all `cycles`, and what each wave and each tooth of topographies and pitch errors makes of them, to first order. Model reduced with slices at rest, under load; `turn` in [analysis] solves a whole turn";
+        flank_orders: switch(false), "te_orders.csv and te_shares.csv: orders of the transmission error over all `cycles`, and what each wave and each tooth of topographies and pitch errors makes of them, to first order. Model reduced with slices at rest, under load; `turn` in `[analysis]` solves a whole turn";
         parquet: switch(false) as written_parquet, "every table column by column as well: history.parquet beside history.csv, for long runs";
         vtu: switch(false), "ParaView files, as `--vtu`: at rest, and of one motion of the model reduced without checkpoints";
         fields: words(FieldName), "fields of the ParaView files; default: all";
