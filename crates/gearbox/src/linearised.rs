@@ -21,6 +21,8 @@ impl Structure {
                 positions.iter().filter_map(|p| p.rolling.get(i).copied().flatten()).collect();
             let missing = GearboxError::Count { what: "states of a bearing", found: states.len(), wanted: 1 };
             let own = Tangent::about(&states).ok_or(missing)?;
+            // Springs act between shaft and seat: of a bore that rolling elements pressed they hold its gear as a rigid ring.
+            bearing.bore_of = None;
             // States count from where the seat stands, as the preload of a bearing does.
             bearing.stiffness += own.stiffness;
             bearing.preload += own.preload;

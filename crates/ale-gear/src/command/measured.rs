@@ -53,10 +53,25 @@ impl MeasuredArgs {
             all.push((format!("{}.csv", table.name), table.csv().map_err(report::ReportError::from)?));
         }
         for (name, content) in &all {
+            is_ours(&out.join(name), content)?;
+        }
+        for (name, content) in &all {
             let path = out.join(name);
             files::write_file(&path, content.as_bytes()).map_err(|e| CommandError::write(&path, &e))?;
         }
         Ok(Some(made.text))
+    }
+}
+
+/// Refuses to replace a file that does not begin as what is to be written there, up to the name of what it is of.
+fn is_ours(path: &Path, content: &str) -> Result<(), CommandError> {
+    let head = |bytes: &[u8]| bytes.split(|byte| b"\n;".contains(byte)).next().map(<[u8]>::to_vec);
+    match std::fs::read(path) {
+        Ok(there) if !there.is_empty() && head(&there) != head(content.as_bytes()) => {
+            let what = format!("{}: a file of another kind is there", path.display());
+            Err(CommandError::input(what, Some("name another folder with `--out`".into())))
+        }
+        _ => Ok(()),
     }
 }
 

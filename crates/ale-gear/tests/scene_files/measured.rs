@@ -66,6 +66,15 @@ fn a_measured_gear_is_evaluated_and_run() {
         assert_eq!(run.code, Some(2), "{}", run.stdout);
         run.stderr
     };
+    // The same gear, and another one, into the same folder: what was written before is replaced, what others wrote is not.
+    std::fs::copy(scratch.path().join("g.mka"), scratch.path().join("other.mka")).unwrap();
+    let again = scratch.ale_gear(["geometry", "a.toml", "--measured", "pinion=other.mka", "--out", "m"]);
+    assert_eq!(again.code, Some(0), "{}", again.stderr);
+    std::fs::create_dir(scratch.path().join("own")).unwrap();
+    std::fs::write(scratch.path().join("own/pinion_drive.csv"), "my own\n").unwrap();
+    let said = refused(["geometry", "a.toml", "--measured", "pinion=g.mka", "--out", "own"]);
+    assert!(said.contains("a file of another kind is there") && said.contains("hint:"), "{said}");
+    assert_eq!(scratch.read("own/pinion_drive.csv"), "my own\n");
     let said = refused(["geometry", "a.toml", "--measured", "g.mka", "--out", "x"]);
     assert!(said.contains("no gear is named"), "{said}");
     std::fs::write(scratch.path().join("c.mka"), curves(61.0, 0.4).replace("21 :mn [mm]: 3", "21 :mn [mm]: 2.5"))

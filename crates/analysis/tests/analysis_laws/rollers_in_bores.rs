@@ -52,6 +52,19 @@ fn a_document_puts_a_gear_on_rollers_in_its_bore() {
     );
 }
 
+/// In vibration and in motion rings are rigid: the gear swings on the springs of its rollers.
+#[test]
+fn a_gear_on_rollers_swings_and_moves() {
+    let more = "[vibration]\nfrom_rpm = 500.0\nto_rpm = 1000.0\nspeeds = 2\n[motion]\nspeed_rpm = 1000.0\ncycles = 1\n\
+                steps_per_cycle = 20\nmesh = \"spring\"\n";
+    let text = text("in_bore_of = \"idler\"\n", "distributing") + more;
+    let asked = Gearbox::parse(&text, &file()).unwrap_or_else(|e| panic!("{e}"));
+    let found = analysis::solve(&asked, Context::new(&mut NoObserver)).and_then(|own| own.finished());
+    let found = found.unwrap_or_else(|e| panic!("{e}"));
+    let lowest = found.vibration.as_ref().unwrap().modes[0].modes[0].frequency;
+    assert!(lowest > 0.0 && found.motion.is_some(), "{lowest} rad/s");
+}
+
 /// What cannot be in a bore is told where it is written.
 #[test]
 fn bearings_that_are_in_no_bore_are_refused() {
