@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use answer::Remark;
 use contact::SliceResult;
 use geometry::{
     FlankModification, Gear, GearModifications, GearPair, ModifiedFlank, Side,
@@ -12,9 +13,11 @@ use metrology::{GearHeader, MeasuredGear, Ripple, Trace, TraceKind};
 use scene::Scene;
 use study::{Harmonic, StudyError, mesh_harmonics};
 
-/// Waves that are looked for on the flanks of a gear, and the least amplitude, um.
+use crate::remark;
+
+/// Waves that are looked for on the flanks of a gear, and the least amplitude over the largest depth of the deviation.
 const WAVES: usize = 10;
-const LEAST_UM: f64 = 0.005;
+const LEAST: f64 = 1e-3;
 /// Waves are looked for from half the number of teeth up to so many times that.
 const HARMONICS: u32 = 10;
 /// Places of a profile at which its topography is read.
@@ -171,6 +174,21 @@ impl FlankOrders {
     }
 }
 
+/// One remark for each gear whose driving flanks bear a wave with fewer than two positions a period: its order shows as another
+/// one.
+pub(crate) fn aliased_waves(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
+    let slice = scene.contact.slices.map_or(0.0, |n| pair.face_width() / f64::from(n.max(1)));
+    let positions = scene.analysis.positions_per_cycle;
+    let said = [("pinion", &pair.pinion), ("wheel", &pair.wheel)].into_iter().filter_map(|(name, gear)| {
+        let waves = Deviations::of(gear, scene.side(), slice)?.waves();
+        let short = waves.iter().filter(|wave| 2 * wave.order > positions * gear.teeth());
+        let most = short.max_by(|a, b| a.amplitude_um.total_cmp(&b.amplitude_um))?;
+        let enough = 2 * most.order / gear.teeth() + 1;
+        Some(remark::aliased_wave(name, most.order, most.amplitude_um, positions, enough))
+    });
+    said.collect()
+}
+
 /// What a depth (um) on the driving flanks of a gear adds to the transmission error at each position, um.
 fn over(
     history: &StaticHistory,
@@ -262,9 +280,12 @@ impl<'a> Deviations<'a> {
             let deviations_um = (0..PLACES).map(|i| proud(place(i))).collect();
             Trace { kind: TraceKind::Profile(0.0), tooth, side: self.side, deviations_um }
         };
-        let measured = MeasuredGear { header, traces: (0..gear.teeth()).map(trace).collect(), pitch: Vec::new() };
+        let traces: Vec<Trace> = (0..gear.teeth()).map(trace).collect();
+        let depths = traces.iter().flat_map(|own| &own.deviations_um).flatten();
+        let least_um = LEAST * depths.fold(0.0, |most: f64, depth| most.max(depth.abs()));
+        let measured = MeasuredGear { header, traces, pitch: Vec::new() };
         let orders = gear.teeth() / 2..=HARMONICS * gear.teeth();
         // A topography beside the flank has none.
-        metrology::ripple(&measured, self.side, orders, WAVES, LEAST_UM).unwrap_or_default()
+        metrology::ripple(&measured, self.side, orders, WAVES, least_um).unwrap_or_default()
     }
 }

@@ -50,6 +50,9 @@ answer::remarks! {
     short_waves(gear, flank, share_percent, rms_um, longest_mm, wave_number_limit, half_width_mm, wave_number_rad_per_mm, wave_number_by_half_width, wavelength_mm, pressure_mpa)
         "the topography of the {gear}'s {flank} flanks holds waves shorter than the contact band: {share_percent:.0} % of its deviation (rms {rms_um:.3} um, parabola taken off) is shorter than {longest_mm:.2} mm along the profile, k a above {wave_number_limit} beside a band of half-width a = {half_width_mm:.3} mm; the largest has k = {wave_number_rad_per_mm:.2} rad/mm (k a = {wave_number_by_half_width:.2}, wavelength {wavelength_mm:.3} mm). The transmission error has their mean over the band. The largest pressure is that of the smooth flank: pressed flat, these waves add {pressure_mpa:.0} MPa to it (rms)",
         "pressed points (`method = \"nodal\"` in [contact]) see waves that their mesh resolves";
+    aliased_wave(gear, order, amplitude_um, positions, positions_enough)
+        "the {gear}'s wave of order {order} ({amplitude_um:.3} um) has fewer than two positions a period: with {positions} positions a mesh cycle it shows at another order",
+        "{positions_enough} would do (`positions_per_cycle` in [analysis])";
     window_widened(failure, teeth) "{failure}; the window was widened to {teeth} teeth", "";
     window_widened_in_motion(failure, teeth)
         "{failure}; the window was widened to {teeth} teeth and the motion begun again", "";

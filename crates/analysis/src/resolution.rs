@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use scene::{Model, Scene, StiffnessFrom};
 
-use crate::{loaded_pair::LoadedPair, options, waves::short_waves};
+use crate::{flank_orders::aliased_waves, loaded_pair::LoadedPair, options, waves::short_waves};
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
@@ -82,7 +82,7 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
         said.extend(few_slices(options.contact.slices, needed.count, &errors));
     }
     said.extend(few_elements(face_elements, would_do));
-    said.extend(short_waves(&LoadedPair::of(scene, pair), options));
+    said.extend(waves(scene, pair, options));
     let resolution = Resolution {
         slices: sliced.then_some(options.contact.slices),
         slices_chosen,
@@ -102,7 +102,16 @@ pub(crate) fn resolution_remarks(scene: &Scene, pair: &GearPair, options: &Stati
     }
     let (face_elements, would_do) = face_elements(scene);
     let mut said = few_elements(face_elements, would_do);
-    said.extend(short_waves(&LoadedPair::of(scene, pair), options));
+    said.extend(waves(scene, pair, options));
+    said
+}
+
+/// What a user should hear of waves on the flanks.
+fn waves(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
+    let mut said = short_waves(&LoadedPair::of(scene, pair), options);
+    if scene.output.flank_orders {
+        said.extend(aliased_waves(scene, pair));
+    }
     said
 }
 

@@ -54,6 +54,15 @@ impl Spectrum {
         let names: Vec<&str> = heading.split(',').map(str::trim).collect();
         let column = |name: &str| names.iter().position(|own| *own == name);
         let duration = DURATIONS.iter().find_map(|name| column(name));
+        let known = || ["torque_nm", "speed_rpm"].into_iter().chain(DURATIONS);
+        let times = |name: &str| names.iter().filter(|own| **own == name).count();
+        if let Some(twice) = known().find(|name| times(name) > 1) {
+            return refused(first, format!("two columns are `{twice}`"));
+        }
+        let lengths: Vec<&str> = DURATIONS.into_iter().filter(|name| times(name) > 0).collect();
+        if let [one, other, ..] = lengths[..] {
+            return refused(first, format!("`{one}` and `{other}` both say how long a load lasts: one of them may"));
+        }
         let (Some(torque), Some(speed), Some(duration)) = (column("torque_nm"), column("speed_rpm"), duration) else {
             let what = format!(
                 "the columns are {}, wanted are `torque_nm`, `speed_rpm`, and one of `share`, `duration_s`, `duration_h`",

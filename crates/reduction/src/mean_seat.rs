@@ -30,6 +30,41 @@ pub(crate) struct MeanSeat {
 /// Least share of the largest eigenvalue of R'B, or of a row that is still independent, that is no round-off.
 pub(crate) const LEAST: f64 = 1e-8;
 
+/// Six rigid motions: three displacements, and three turns about a centre, by the radius of gyration of weights about it.
+pub(crate) struct RigidMotions {
+    centre: Vector3<f64>,
+    /// Radius of gyration, mm.
+    pub gyration: f64,
+}
+
+impl RigidMotions {
+    /// About the centre of some weighted nodes.
+    pub fn about(centre: Vector3<f64>, nodes: &[[f64; 3]], weights: &[(u32, f64)]) -> Self {
+        let area: f64 = weights.iter().map(|own| own.1).sum();
+        let away = |node: u32| (Vector3::from(nodes[node as usize]) - centre).norm_squared();
+        let square: f64 = weights.iter().map(|&(node, weight)| weight * away(node)).sum();
+        Self { centre, gyration: (square / area).max(0.0).sqrt() }
+    }
+
+    /// What a place moves along an axis in each of them.
+    pub fn at(&self, place: [f64; 3], axis: usize) -> Vector6<f64> {
+        let arm = (Vector3::from(place) - self.centre) / self.gyration;
+        let turn = |k: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == k))).cross(&arm)[axis];
+        Vector6::from_fn(|k, _| if k < 3 { f64::from(u8::from(k == axis)) } else { turn(k - 3) })
+    }
+
+    /// R: they of all free coordinates, n x 6.
+    pub fn of(&self, nodes: &[[f64; 3]], dofs: &DofMap) -> Mat<f64> {
+        let mut rigid = Mat::zeros(dofs.free_count(), 6);
+        for row in 0..dofs.free_count() {
+            let Some((node, axis)) = dofs.node_and_axis(row) else { continue };
+            let motion = self.at(nodes[node as usize], axis);
+            (0..6).for_each(|k| rigid[(row, k)] = motion[k]);
+        }
+        rigid
+    }
+}
+
 impl MeanSeat {
     /// Seat of the held faces of a bore; all nodes of the mesh are free.
     pub(crate) fn new(gear: &MeshedGear, dofs: &DofMap) -> Result<Self, ReductionError> {
@@ -37,20 +72,10 @@ impl MeanSeat {
         let at = |node: u32| Vector3::from(nodes[node as usize]);
         let area: f64 = weights.iter().map(|(_, w)| w).sum();
         let centre = weights.iter().map(|&(n, w)| w * at(n)).sum::<Vector3<f64>>() / area;
-        let square: f64 = weights.iter().map(|&(n, w)| w * (at(n) - centre).norm_squared()).sum();
-        let gyration = (square / area).max(0.0).sqrt();
-        let motion = |node: u32, axis: usize| {
-            let arm = (at(node) - centre) / gyration;
-            let turn = |k: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == k))).cross(&arm)[axis];
-            Vector6::from_fn(|k, _| if k < 3 { f64::from(u8::from(k == axis)) } else { turn(k - 3) })
-        };
-        let n = dofs.free_count();
-        let (mut rigid, mut forces) = (Mat::zeros(n, 6), Mat::zeros(n, 6));
-        for row in 0..n {
-            let Some((node, axis)) = dofs.node_and_axis(row) else { continue };
-            let motion = motion(node, axis);
-            (0..6).for_each(|k| rigid[(row, k)] = motion[k]);
-        }
+        let motions = RigidMotions::about(centre, nodes, &weights);
+        let motion = |node: u32, axis: usize| motions.at(nodes[node as usize], axis);
+        let rigid = motions.of(nodes, dofs);
+        let mut forces = Mat::zeros(dofs.free_count(), 6);
         let mut sum = Matrix6::zeros();
         let mut rows = Vec::new();
         for &(node, weight) in &weights {

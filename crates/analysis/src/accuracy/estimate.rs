@@ -36,8 +36,10 @@ pub(super) fn estimate(
             Some(run_phase(observer, "estimate", PhaseWork::Unknown, |_| companions.of((scene, rung), result, cache))?)
         }
     };
-    let seen = SeenCycle::new(scene, result, standing, companion, !beyond.is_empty())?;
-    accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?)
+    let is_calibrated = beyond.is_empty();
+    let seen = SeenCycle::new(scene, result, standing, companion, !is_calibrated)?;
+    let own = accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?)?;
+    Ok(Accuracy { is_calibrated, ..own })
 }
 
 /// Bounds that cost nothing: those of the laws alone; `None` where these do not hold.
@@ -51,7 +53,8 @@ pub(super) fn free_estimate(scene: &Scene, result: &StaticResult) -> Result<Opti
         return Ok(None);
     }
     let seen = SeenCycle::new(scene, result, standing, None, false)?;
-    accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?).map(Some)
+    let own = accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?)?;
+    Ok(Some(Accuracy { is_calibrated: true, ..own }))
 }
 
 fn accuracy(

@@ -28,6 +28,9 @@ described::described! {
         pub settings: Vec<TriedSettings>,
         /// errors that the bounds do not cover
         pub not_covered: Vec<String>,
+        /// whether a pair is like those of the calibration
+        #[serde(skip)]
+        pub is_calibrated: bool,
     }
 }
 

@@ -172,6 +172,23 @@ fn flanks_by_tooth_cost_half_as_much_again_at_most() {
     }
 }
 
+/// A wave with fewer than two positions a period shows at another order, and that is told, with the positions that would do.
+#[test]
+fn an_aliased_wave_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |tooth: u32, roll: f64| 0.3 * (GHOST * (roll - TAU * f64::from(tooth) / f64::from(TEETH))).cos();
+    let file = topography(folder.path(), "wave.csv", wave);
+    let told = |positions: u32| {
+        let mut scene = scene(&file, 300.0);
+        scene.analysis.positions_per_cycle = positions;
+        let remarks = StaticAnalysis::new(&scene).solve().unwrap().history.remarks;
+        remarks.into_iter().find(|own| own.code() == "aliased_wave").map(|own| own.to_string())
+    };
+    assert_eq!(told(8), None);
+    let said = told(4).unwrap();
+    assert!(said.contains("order 61") && said.contains("5 would do"), "{said}");
+}
+
 /// Mesh cycles of a turn of either gear, and until the same teeth meet again.
 #[test]
 fn turns_are_counted_in_mesh_cycles() {

@@ -115,6 +115,18 @@ fn places_that_fail_are_told_and_bounds_keep_the_loads() {
     assert!(local.pitting_damage.iter().all(|sum| *sum > 1.0), "{:?}", local.pitting_damage);
     let high = local.pitting_damage.iter().chain(&local.bending_damage.unwrap()).filter(|sum| **sum > 1.0).count();
     assert_eq!(told(&plain.history.remarks), high, "{:?}", plain.history.remarks);
+    // The worst point of a fillet is where the largest root stress is, not one that the contact above it pulls.
+    for gear in 0..2 {
+        let peaks = plain.history.positions.iter().flat_map(|p| &p.root_stress[gear]).map(|own| own.max_principal);
+        let roots = &plain.history.roots.as_ref().unwrap()[gear];
+        let peaks: Vec<_> = peaks.filter(|peak| peak.stress > 0.0).collect();
+        let most = peaks.iter().max_by(|a, b| a.stress.total_cmp(&b.stress)).unwrap();
+        let largest = roots.tension.iter().copied().fold(0.0, f64::max);
+        assert_eq!(largest, most.stress, "gear {gear}");
+        let there: Vec<_> = roots.places.iter().zip(&roots.tension).filter(|own| *own.1 == largest).collect();
+        assert_eq!(there.len(), 1, "gear {gear}: {there:?}");
+        assert!((there[0].0[0] / most.radius - 1.0).abs() < 1e-6, "gear {gear}: {there:?}, {most:?}");
+    }
     let bounded = scene.set("analysis.model", "reduced").set("accuracy.mean_ste", "90 %").build().unwrap();
     let bounded = StaticAnalysis::new(&bounded).solve().unwrap();
     let own = RatingHeadline::of(&bounded.scene, &bounded.history).unwrap().local_spectrum.unwrap();

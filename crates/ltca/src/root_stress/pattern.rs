@@ -9,13 +9,13 @@ use super::FilletField;
 /// positions.
 ///
 /// Points are the nodes of the first fillet that came; what comes to a node of another tooth counts at the nearest of them.
-/// Stress that rises up to the flank counts with the peak of its fillet at most ([`super::ROOT_STRESS_DEFINITION`]), so that
-/// the largest value is the reported root stress.
+/// Stress above the peak of its fillet rises up to the flank, where contact makes it, and does not count
+/// ([`super::ROOT_STRESS_DEFINITION`]): the largest value is the reported root stress, at its place.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct RootPattern {
     /// Distance from the gear's axis and height from mid-face of each point, mm.
     pub places: Vec<[f64; 2]>,
-    /// Largest first principal stress of each point, MPa; below 0 where nothing pulls.
+    /// Largest first principal stress of each point, MPa; 0 where nothing that counts pulls.
     pub tension: Vec<f64>,
 }
 
@@ -28,12 +28,12 @@ impl RootPattern {
         for field in fields.iter().filter(|own| own.peaks.side == side) {
             if self.places.is_empty() {
                 self.places = field.places.iter().map(|p| [p.radius, p.z]).collect();
-                self.tension = vec![f64::NEG_INFINITY; self.places.len()];
+                self.tension = vec![0.0; self.places.len()];
             }
             let most = field.peaks.max_principal.stress;
-            for (i, place) in field.places.iter().enumerate() {
+            for (i, place) in field.places.iter().enumerate().filter(|own| own.1.max_principal <= most) {
                 let Some(own) = self.nearest(i, [place.radius, place.z]) else { continue };
-                self.tension[own] = self.tension[own].max(place.max_principal.min(most));
+                self.tension[own] = self.tension[own].max(place.max_principal);
             }
         }
     }

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use super::SectorMesh;
 use crate::{
     ReductionError,
-    mean_seat::{LEAST, independent},
+    mean_seat::{LEAST, RigidMotions, independent},
 };
 
 /// Numbers of a rigid motion, and of what balances forces on a free body.
@@ -53,20 +53,10 @@ impl SectorSeat {
         // Of all sectors together on the axis.
         let height = weights.iter().map(|&(n, w)| w * at(n).z).sum::<f64>() / area;
         let centre = Vector3::new(0.0, 0.0, height);
-        let square: f64 = weights.iter().map(|&(n, w)| w * (at(n) - centre).norm_squared()).sum();
-        let gyration = (square / area).max(0.0).sqrt();
-        let motion = |node: u32, axis: usize| {
-            let arm = (at(node) - centre) / gyration;
-            let turn = |k: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == k))).cross(&arm)[axis];
-            Vector6::from_fn(|k, _| if k < 3 { f64::from(u8::from(k == axis)) } else { turn(k - 3) })
-        };
-        let n = dofs.free_count();
-        let (mut rigid, mut forces) = (Mat::zeros(n, SIX), Mat::zeros(n, SIX));
-        for row in 0..n {
-            let Some((node, axis)) = dofs.node_and_axis(row) else { continue };
-            let motion = motion(node, axis);
-            (0..SIX).for_each(|k| rigid[(row, k)] = motion[k]);
-        }
+        let motions = RigidMotions::about(centre, &part.mesh.nodes, &weights);
+        let motion = |node: u32, axis: usize| motions.at(part.mesh.nodes[node as usize], axis);
+        let rigid = motions.of(&part.mesh.nodes, dofs);
+        let mut forces = Mat::zeros(dofs.free_count(), SIX);
         let whole = area * f64::from(part.teeth);
         let mut own = Matrix6::zeros();
         for &(node, weight) in &weights {
@@ -91,7 +81,7 @@ impl SectorSeat {
             sum.try_inverse().filter(|_| eigenvalues.min() > LEAST * eigenvalues.max()).ok_or_else(refused)?;
         let springs = independent(on_cut.collect()).ok_or_else(refused)?;
         let left = left.to_vec();
-        Ok(Some(Self { rigid, forces, inverse, springs, stiffness: young * gyration, left, pitch }))
+        Ok(Some(Self { rigid, forces, inverse, springs, stiffness: young * motions.gyration, left, pitch }))
     }
 
     /// Freedoms of the left cut that motions with real parts above imaginary ones (`parts` of them; of all free freedoms, one column

@@ -168,7 +168,7 @@ pub(crate) fn of_root(name: &'static str, own: &RootPattern) -> Table {
     Table::new(name)
         .numbers("diameter_mm", "diameter of the point", own.places.iter().map(|at| 2.0 * at[0]))
         .numbers("z_mm", "height of the point, from the gear's own mid-face", own.places.iter().map(|at| at[1]))
-        .numbers("max_principal_mpa", "largest first principal stress that came there, of all teeth; stress that rises up to the flank counts with the peak of its fillet at most", own.tension.iter().copied())
+        .numbers("max_principal_mpa", "largest first principal stress that came there, of all teeth; 0 where nothing pulls, and beside the flank where stress is above the peak of its fillet, which contact makes", own.tension.iter().copied())
 }
 
 /// Contact temperature and film of every place of a pattern, where they are rated.

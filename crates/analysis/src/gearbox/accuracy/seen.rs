@@ -84,7 +84,9 @@ impl Seen<'_> {
             let [known, law] = law.unwrap_or_default();
             let whole = crate::worse(law, seen);
             uncalibrated += whole;
-            Term { cause, known, amount: crate::worse(law, factor * whole) }
+            // Where laws are stretched to a pair unlike those of their calibration, gearboxes know better.
+            let least = if self.is_calibrated(which) { law } else { 0.0 };
+            Term { cause, known, amount: crate::worse(least, factor * whole) }
         };
         (CAUSES.map(term).to_vec(), uncalibrated)
     }
@@ -120,6 +122,15 @@ impl Seen<'_> {
             }
             Cause::Interpolation => worst_of_pairs(cause) * value.abs(),
             _ => self.result.certificate[0] * value.abs(),
+        }
+    }
+
+    /// Whether the pairs that a number goes with are like those of their calibration.
+    fn is_calibrated(&self, which: Which) -> bool {
+        let own = |pair: &OfPair| pair.as_ref().is_ok_and(|own| own.is_calibrated);
+        match which.quantity {
+            Quantity::NaturalFrequency => self.pairs.iter().all(own),
+            _ => self.pairs.get(which.place).is_some_and(own),
         }
     }
 
