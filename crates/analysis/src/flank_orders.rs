@@ -71,6 +71,37 @@ pub struct FlankShare {
     pub share: f64,
 }
 
+/// Waves on the driving flanks of pinion and wheel, beside orders of the mesh frequency.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FlankWaves {
+    teeth: [u32; 2],
+    waves: [Vec<Ripple>; 2],
+}
+
+impl FlankWaves {
+    /// Waves of a pair; none where it has no topographies.
+    pub fn of(scene: &Scene, pair: &GearPair) -> Self {
+        let slice = scene.contact.slices.map_or(0.0, |n| pair.face_width() / f64::from(n.max(1)));
+        let gears = [&pair.pinion, &pair.wheel];
+        let waves = gears.map(|gear| Deviations::of(gear, scene.side(), slice).map(|own| own.waves()));
+        Self { teeth: gears.map(Gear::teeth), waves: waves.map(Option::unwrap_or_default) }
+    }
+
+    /// Order of one turn of pinion and wheel.
+    pub fn orders(&self, mesh_order: f64) -> [f64; 2] {
+        self.teeth.map(|teeth| mesh_order * f64::from(teeth))
+    }
+
+    /// Amplitude of the wave of an order of the mesh on pinion and wheel, um; 0 without one.
+    pub fn amplitudes_um(&self, mesh_order: f64) -> [f64; 2] {
+        let orders = self.orders(mesh_order);
+        [0, 1].map(|gear| {
+            let own = self.waves[gear].iter().find(|w| (f64::from(w.order) - orders[gear]).abs() < 1e-6);
+            own.map_or(0.0, |w| w.amplitude_um)
+        })
+    }
+}
+
 /// Orders of the transmission error with their causes on the flanks.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FlankOrders {
@@ -96,11 +127,10 @@ impl FlankOrders {
         let side = scene.side();
         let slice = scene.contact.slices.map_or(0.0, |n| pair.face_width() / f64::from(n.max(1)));
         let mut parts: Vec<(usize, FlankPart, Vec<f64>)> = Vec::new();
-        let mut waves: [Vec<Ripple>; 2] = Default::default();
+        let waves = FlankWaves::of(scene, pair);
         for (gear, own) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
             let Some(deviations) = Deviations::of(own, side, slice) else { continue };
-            waves[gear] = deviations.waves();
-            for wave in &waves[gear] {
+            for wave in &waves.waves[gear] {
                 let depth = |tooth: u32, at: [f64; 2]| deviations.wave_um(wave, tooth, at);
                 parts.push((gear, FlankPart::Wave(wave.order), over(history, (gear, side, own.base_radius()), &depth)));
             }
@@ -119,7 +149,7 @@ impl FlankOrders {
         scene: &Scene,
         history: &StaticHistory,
         parts: &[(usize, FlankPart, Vec<f64>)],
-        waves: &[Vec<Ripple>; 2],
+        waves: &FlankWaves,
     ) -> Result<Self, StudyError> {
         let all = |of: fn(&StaticPosition) -> f64| -> Vec<f64> { history.positions.iter().map(of).collect() };
         let lines = |samples: &[f64]| mesh_harmonics(samples, 1, samples.len() / 2);
@@ -130,14 +160,9 @@ impl FlankOrders {
         teeth.for_each(|(_, _, own)| sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own));
         let flanks = lines(&sum)?;
         let cycles = f64::from(scene.analysis.cycles);
-        let of_gears = [scene.pinion.teeth, scene.wheel.teeth].map(f64::from);
         let place = |line: &Harmonic| {
             let mesh_order = line.order as f64 / cycles;
-            (mesh_order, of_gears.map(|teeth| mesh_order * teeth))
-        };
-        let wave = |gear: usize, order: f64| {
-            let own = waves[gear].iter().find(|w| (f64::from(w.order) - order).abs() < 1e-6);
-            own.map_or(0.0, |w| w.amplitude_um)
+            (mesh_order, waves.orders(mesh_order))
         };
         let told = ste.iter().zip(&kinematic).zip(&flanks).map(|((ste, kinematic), flanks)| {
             let (mesh_order, order) = place(ste);
@@ -147,7 +172,7 @@ impl FlankOrders {
                 ste_um: ste.amplitude,
                 kinematic_te_um: kinematic.amplitude,
                 flanks_um: flanks.amplitude,
-                wave_um: [0, 1].map(|gear| wave(gear, order[gear])),
+                wave_um: waves.amplitudes_um(mesh_order),
             }
         });
         let told: Vec<TeLine> = told.collect();
@@ -174,19 +199,23 @@ impl FlankOrders {
     }
 }
 
-/// One remark for each gear whose driving flanks bear a wave with fewer than two positions a period: its order shows as another
-/// one.
-pub(crate) fn aliased_waves(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
-    let slice = scene.contact.slices.map_or(0.0, |n| pair.face_width() / f64::from(n.max(1)));
-    let positions = scene.analysis.positions_per_cycle;
-    let said = [("pinion", &pair.pinion), ("wheel", &pair.wheel)].into_iter().filter_map(|(name, gear)| {
-        let waves = Deviations::of(gear, scene.side(), slice)?.waves();
+/// What shows orders at the wrong place: a wave with fewer than two positions a period, and mesh cycles that are no whole turn
+/// of a gear whose teeth differ.
+pub(crate) fn misplaced_orders(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
+    let waves = FlankWaves::of(scene, pair);
+    let (positions, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
+    let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)].into_iter().zip(&waves.waves);
+    let said = gears.flat_map(|((name, gear), waves)| {
         let short = waves.iter().filter(|wave| 2 * wave.order > positions * gear.teeth());
-        let most = short.max_by(|a, b| a.amplitude_um.total_cmp(&b.amplitude_um))?;
-        let enough = 2 * most.order / gear.teeth() + 1;
-        Some(remark::aliased_wave(name, most.order, most.amplitude_um, positions, enough))
+        let most = short.max_by(|a, b| a.amplitude_um.total_cmp(&b.amplitude_um));
+        let aliased = most.map(|most| {
+            let enough = 2 * most.order / gear.teeth() + 1;
+            remark::aliased_wave(name, most.order, most.amplitude_um, positions, enough)
+        });
+        let differs = gear.has_own_teeth() && !cycles.is_multiple_of(gear.teeth());
+        [aliased, differs.then(|| remark::orders_of_no_turn(name, cycles, gear.teeth()))]
     });
-    said.collect()
+    said.flatten().collect()
 }
 
 /// What a depth (um) on the driving flanks of a gear adds to the transmission error at each position, um.

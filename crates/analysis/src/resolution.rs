@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use scene::{Model, Scene, StiffnessFrom};
 
-use crate::{flank_orders::aliased_waves, loaded_pair::LoadedPair, options, waves::short_waves};
+use crate::{flank_orders::misplaced_orders, loaded_pair::LoadedPair, options, waves::short_waves};
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
@@ -110,7 +110,7 @@ pub(crate) fn resolution_remarks(scene: &Scene, pair: &GearPair, options: &Stati
 fn waves(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
     let mut said = short_waves(&LoadedPair::of(scene, pair), options);
     if scene.output.flank_orders {
-        said.extend(aliased_waves(scene, pair));
+        said.extend(misplaced_orders(scene, pair));
     }
     said
 }

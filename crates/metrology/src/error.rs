@@ -58,6 +58,22 @@ pub enum MetrologyError {
         /// What the parser says.
         message: String,
     },
+    /// A deviation that no flank has.
+    #[error("{}: {what} of tooth {tooth}, {side}: {um} um is more than a quarter of the module ({most_um:.0} um)", path.display())]
+    Deviation {
+        /// The file.
+        path: PathBuf,
+        /// What deviates.
+        what: &'static str,
+        /// Tooth, from 1, as files count.
+        tooth: u32,
+        /// Side of the tooth.
+        side: &'static str,
+        /// The deviation, um.
+        um: f64,
+        /// The largest that is taken, um.
+        most_um: f64,
+    },
     /// A measured gear that is another one than the gear it is used for.
     #[error("the measured gear has {name} {measured}, the gear {own}")]
     OtherGear {
@@ -87,7 +103,10 @@ impl MetrologyError {
                 Some("is the file complete and of the kind that it is read as?".into())
             }
             Self::Missing { .. } => Some("export header, ranges and curves into one file".into()),
-            Self::Xml { .. } => None,
+            Self::Xml { .. } => Some("with `--names` the file is XML; a curve file (MKA) is read without".into()),
+            Self::Deviation { .. } => Some(
+                "where the number stands for no value, say so: by the line `UNDEFINED` of a curve file, by `undefined` in the file of `--names`".into(),
+            ),
             Self::Names { .. } => Some(
                 "keys: teeth, normal_module, helix_angle, pressure_angle, profiles, helices, tooth, first_tooth, side, left, right, place, from, to, values, undefined".into(),
             ),

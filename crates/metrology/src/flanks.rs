@@ -144,9 +144,9 @@ impl Blend {
         };
         let of = |is_profile: bool| {
             let own = traces.iter().filter(|t| matches!(t.kind, TraceKind::Profile(_)) == is_profile);
-            let mut lines: Vec<Line> = own.filter_map(line).collect();
+            // The last of those at one place counts, as it was measured last: the first of equals is kept.
+            let mut lines: Vec<Line> = own.rev().filter_map(line).collect();
             lines.sort_by(|a, b| a.across.total_cmp(&b.across));
-            // The last of those at one place counts, as it was measured last.
             lines.dedup_by(|a, b| a.across == b.across);
             lines
         };

@@ -126,7 +126,7 @@ pub fn read_gde(text: &str, names: &GdeNames, path: &Path) -> Result<MeasuredGea
     if traces.is_empty() {
         return Err(MetrologyError::Missing { path: path.to_owned(), what: "any trace of the names given" });
     }
-    Ok(MeasuredGear { header, traces, pitch: Vec::new() })
+    MeasuredGear { header, traces, pitch: Vec::new() }.checked(path)
 }
 
 /// Elements at a path below one.

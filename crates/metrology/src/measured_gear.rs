@@ -1,9 +1,15 @@
 //! One measured gear: its header, traces and pitch.
 
 use std::f64::consts::PI;
+use std::path::Path;
 
 use geometry::Side;
 use serde::Serialize;
+
+use crate::MetrologyError;
+
+/// Largest deviation that a flank may have, in normal modules: more is a number that stands for no value.
+const LARGEST: f64 = 0.25;
 
 /// A range of a trace, from and to; diameters (mm) of profiles, heights (mm) of helices.
 pub type Range = [f64; 2];
@@ -122,5 +128,41 @@ impl Trace {
     pub fn points(&self, header: &GearHeader) -> Option<Vec<[f64; 2]>> {
         let places = self.places(header)?;
         Some(places.iter().zip(&self.deviations_um).filter_map(|(x, f)| Some([*x, (*f)?])).collect())
+    }
+}
+
+impl MeasuredGear {
+    /// The gear, unless a deviation of a trace or of the pitch is above a quarter of the normal module; `path` is what the
+    /// message names.
+    ///
+    /// # Errors
+    /// [`MetrologyError::Deviation`].
+    pub(crate) fn checked(self, path: &Path) -> Result<Self, MetrologyError> {
+        let most_um = 1e3 * LARGEST * self.header.normal_module;
+        let of_traces = self.traces.iter().flat_map(|trace| {
+            let what = match trace.kind {
+                TraceKind::Profile(_) => "profile",
+                TraceKind::Helix(_) => "helix",
+            };
+            trace.deviations_um.iter().flatten().map(move |um| (what, trace.tooth, trace.side, *um))
+        });
+        let of_pitch = self.pitch.iter().flat_map(|pitch| {
+            pitch.index_um.iter().zip(0..).map(|(um, tooth)| ("index deviation", tooth, pitch.side, *um))
+        });
+        let worst = of_traces.chain(of_pitch).find(|(.., um)| um.abs() > most_um);
+        match worst {
+            None => Ok(self),
+            Some((what, tooth, side, um)) => {
+                let path = path.to_owned();
+                Err(MetrologyError::Deviation { path, what, tooth: tooth + 1, side: side.name(), um, most_um })
+            }
+        }
+    }
+
+    /// How many traces were measured again at the same place of the same tooth: the last of them counts.
+    pub fn repeated_traces(&self) -> usize {
+        let same = |a: &Trace, b: &Trace| a.tooth == b.tooth && a.side == b.side && a.kind == b.kind;
+        let again = |(i, trace): (usize, &Trace)| self.traces[i + 1..].iter().any(|later| same(trace, later));
+        self.traces.iter().enumerate().filter(|own| again(*own)).count()
     }
 }

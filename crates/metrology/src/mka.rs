@@ -30,9 +30,10 @@ use geometry::Side;
 use crate::MetrologyError;
 use crate::measured_gear::{GearHeader, MeasuredGear, Pitch, Trace, TraceKind};
 
-/// What stands for a value that is none, and how near a number has to come to be it.
+/// What stands for a value that is none in every file, beside the number of its line `UNDEFINED`, and how near a number has to
+/// come to be it, parts.
 const UNDEFINED: f64 = -2_147_483.648;
-const NEAR_UNDEFINED: f64 = 1.0;
+const NEAR_UNDEFINED: f64 = 1e-6;
 /// Values of a trace at the most, and teeth of a gear: more is a damaged file.
 const MOST_VALUES: usize = 1 << 20;
 const MOST_TEETH: u32 = 10_000;
@@ -49,7 +50,8 @@ pub fn read_mka(bytes: &[u8], path: &Path) -> Result<MeasuredGear, MetrologyErro
         // Every byte is a letter of Latin-1.
         Err(_) => bytes.iter().map(|b| char::from(*b)).collect(),
     };
-    let mut reader = Reader { path, header: Header::default(), traces: Vec::new(), pitch: Vec::new() };
+    let (header, undefined) = (Header::default(), UNDEFINED);
+    let mut reader = Reader { path, header, undefined, traces: Vec::new(), pitch: Vec::new() };
     let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line)).peekable();
     let mut block = None;
     while let Some((line, content)) = lines.next() {
@@ -83,6 +85,9 @@ pub fn read_mka(bytes: &[u8], path: &Path) -> Result<MeasuredGear, MetrologyErro
             }
             reader.pitch.push(Pitch { side, index_um });
         } else {
+            if let Some(word) = content.strip_prefix("UNDEFINED").and_then(|rest| rest.split_whitespace().next()) {
+                reader.undefined = number(path, line, word)?;
+            }
             block = title(content).or(block);
             reader.header.take(path, line, content)?;
         }
@@ -186,6 +191,8 @@ fn number(path: &Path, line: usize, word: &str) -> Result<f64, MetrologyError> {
 struct Reader<'a> {
     path: &'a Path,
     header: Header,
+    /// What stands for a value that is none.
+    undefined: f64,
     traces: Vec<Trace>,
     pitch: Vec<Pitch>,
 }
@@ -198,7 +205,8 @@ impl Reader<'_> {
 
     fn value(&self, line: usize, word: &str) -> Result<Option<f64>, MetrologyError> {
         let value = number(self.path, line, word)?;
-        Ok(((value - UNDEFINED).abs() > NEAR_UNDEFINED).then_some(value))
+        let nears = [self.undefined, UNDEFINED].map(|none| (value - none).abs() <= NEAR_UNDEFINED * none.abs());
+        Ok((!nears.contains(&true)).then_some(value))
     }
 
     /// `Profil:  Zahn-Nr.: 17 links / 480 Werte  z= 12.5`, `Verschränkung: Zahn-Nr.: 1k /Flankenlinie:3 links / 2 Werte x= 10.2`.
@@ -276,7 +284,7 @@ impl Reader<'_> {
         if self.pitch.iter().any(|p| p.index_um.len() != header.teeth as usize) {
             return Err(missing("a row of the pitch table for every tooth, or a tooth for every row,"));
         }
-        Ok(MeasuredGear { header, traces: self.traces, pitch: self.pitch })
+        MeasuredGear { header, traces: self.traces, pitch: self.pitch }.checked(self.path)
     }
 }
 

@@ -1,13 +1,19 @@
 //! Waves on the flanks of all teeth over the rotation of the gear.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 use geometry::Side;
+use nalgebra::Complex;
 use serde::Serialize;
 
 use crate::MetrologyError;
 use crate::least_squares::fit;
 use crate::measured_gear::{MeasuredGear, TraceKind};
+
+/// Cosine and sine of an order that are this near to one another cannot be told apart on the traces.
+const SINGULAR: f64 = 1e-12;
 
 /// One wave: A cos(O theta + phi), theta the rotation at which its flanks are in mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -28,14 +34,15 @@ pub struct Ripple {
 /// sum over all points of [f - sum_j (a_j cos O_j theta + b_j sin O_j theta) - own parabola of each trace]^2 = min
 /// ```
 /// Each trace keeps a parabola of its own, which is slope, crowning and pitch and no wave. `orders` are those that are
-/// tried, `count` how many waves are looked for at the most; a step that finds less than `least_um` ends the search.
+/// tried, `count` how many waves are looked for at the most; a step that finds less than `least_um` ends the search. Waves
+/// that differ by the number of teeth are alike on one tooth, so that all teeth are needed.
 ///
 /// # Errors
-/// [`MetrologyError::Unusable`] without profiles on that side that have a range.
+/// [`MetrologyError::Unusable`] without profiles on that side of all teeth that have a range.
 pub fn ripple(
     measured: &MeasuredGear,
     side: Side,
-    orders: std::ops::RangeInclusive<u32>,
+    orders: RangeInclusive<u32>,
     count: usize,
     least_um: f64,
 ) -> Result<Vec<Ripple>, MetrologyError> {
@@ -44,41 +51,43 @@ pub fn ripple(
     let base = 0.5 * header.base_diameter();
     // Rotation and value of each point, trace by trace, and the shapes that are no wave.
     let mut traces: Vec<Flattened> = Vec::new();
+    let mut teeth = BTreeSet::new();
     for trace in measured.traces.iter().filter(|t| t.side == side) {
         let TraceKind::Profile(z) = trace.kind else { continue };
         let Some(points) = trace.points(header).filter(|p| p.len() > 4) else { continue };
         let turn = side.sign() * (f64::from(trace.tooth) * header.pitch_angle() + twist * z);
+        teeth.insert(trace.tooth);
         traces.push(Flattened::new(points.iter().map(|[x, f]| [x / base - turn, *f]).collect()));
     }
-    if traces.is_empty() {
-        return Err(MetrologyError::Unusable { what: "there are no profiles with a measuring range on that side" });
+    if teeth.len() != header.teeth as usize {
+        return Err(MetrologyError::Unusable { what: "waves need profiles with a measuring range of all teeth" });
     }
     let values: Vec<f64> = traces.iter().flat_map(|t| t.without(t.points.iter().map(|p| p[1]).collect())).collect();
     let shape = |order: u32, wave: fn(f64) -> f64| -> Vec<f64> {
         let of = |t: &Flattened| t.without(t.points.iter().map(|p| wave(f64::from(order) * p[0])).collect());
         traces.iter().flat_map(of).collect()
     };
+    let norms = norms(&traces, &orders);
     let mut found: Vec<u32> = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let mut coefficients: Vec<f64> = Vec::new();
-    let all: Vec<(u32, [Vec<f64>; 2])> = orders.map(|o| (o, [shape(o, f64::cos), shape(o, f64::sin)])).collect();
     while found.len() < count {
         let mut left = values.clone();
         for (column, c) in columns.iter().zip(&coefficients) {
             left.iter_mut().zip(column).for_each(|(l, x)| *l -= c * x);
         }
-        let taken = |(order, both): &(u32, [Vec<f64>; 2])| {
-            if found.contains(order) {
+        let products = products(traces.iter().flat_map(|t| &t.points).map(|p| p[0]).zip(left), &orders);
+        let taken = |((order, &[cc, cs, ss]), &[c, s]): ((u32, &[f64; 3]), &[f64; 2])| {
+            let det = cc * ss - cs * cs;
+            if found.contains(&order) || det.is_nan() || det <= SINGULAR * cc * ss {
                 return None;
             }
-            let [a, b] = fit(both, &left)?.try_into().ok()?;
-            let gone = both[0].iter().zip(&both[1]).map(|(c, s)| (a * c + b * s).powi(2)).sum::<f64>();
-            (f64::hypot(a, b) >= least_um).then_some((gone, *order))
+            let [a, b] = [(ss * c - cs * s) / det, (cc * s - cs * c) / det];
+            (f64::hypot(a, b) >= least_um).then_some((a * c + b * s, order))
         };
-        let best = all.iter().filter_map(taken).max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, order)) = best else { break };
-        let Some((_, both)) = all.iter().find(|own| own.0 == order) else { break };
-        columns.extend(both.iter().cloned());
+        let all = orders.clone().zip(&norms).zip(&products);
+        let Some((_, order)) = all.filter_map(taken).max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+        columns.extend([shape(order, f64::cos), shape(order, f64::sin)]);
         let Some(next) = fit(&columns, &values) else {
             columns.truncate(columns.len() - 2);
             break;
@@ -93,6 +102,47 @@ pub fn ripple(
     let mut all: Vec<Ripple> = found.iter().enumerate().map(wave).collect();
     all.sort_by(|a, b| b.amplitude_um.total_cmp(&a.amplitude_um));
     Ok(all)
+}
+
+/// Sums of value times cosine and value times sine of each order over points (rotation, value).
+fn products(points: impl Iterator<Item = (f64, f64)>, orders: &RangeInclusive<u32>) -> Vec<[f64; 2]> {
+    let mut sums = vec![[0.0; 2]; orders.clone().count()];
+    for (theta, value) in points {
+        let (mut wave, step) = turned(theta, orders);
+        for sum in &mut sums {
+            sum[0] += value * wave.re;
+            sum[1] += value * wave.im;
+            wave *= step;
+        }
+    }
+    sums
+}
+
+/// Sums of cosine times cosine, cosine times sine and sine times sine of each order, without the parabolas of the traces.
+fn norms(traces: &[Flattened], orders: &RangeInclusive<u32>) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; orders.clone().count()];
+    for trace in traces {
+        for [theta, _] in &trace.points {
+            let (mut wave, step) = turned(*theta, orders);
+            for sum in &mut sums {
+                let (c, s) = (wave.re, wave.im);
+                sum.iter_mut().zip([c * c, c * s, s * s]).for_each(|(sum, own)| *sum += own);
+                wave *= step;
+            }
+        }
+        for shape in &trace.shapes {
+            let along = products(trace.points.iter().map(|p| p[0]).zip(shape.iter().copied()), orders);
+            for (sum, [c, s]) in sums.iter_mut().zip(along) {
+                sum.iter_mut().zip([c * c, c * s, s * s]).for_each(|(sum, own)| *sum -= own);
+            }
+        }
+    }
+    sums
+}
+
+/// The wave of the first order at a rotation, and what leads from one order to the next.
+fn turned(theta: f64, orders: &RangeInclusive<u32>) -> (Complex<f64>, Complex<f64>) {
+    (Complex::cis(f64::from(*orders.start()) * theta), Complex::cis(theta))
 }
 
 /// A trace over the rotation, with the parabolas of its range made orthonormal.

@@ -31,16 +31,21 @@ impl Film {
     /// h = 1600 rho_n G_M^0.6 U^0.7 W^-0.13 S_GF^0.22
     /// G_M = 1e6 alpha_M E_r,   U = eta_M v_Sigma/(2000 E_r rho_n),   W = 2 pi p^2/E_r^2,   S_GF = alpha_B eta_B/(alpha_M eta_M)
     /// ```
-    /// M: at the bulk temperature, B: at the contact temperature theta_M + theta_fl. `pressure` p, MPa. Source: ISO/TS 6336-22, film thickness (Dowson and Higginson, with the correction for heat).
+    /// M: at the bulk temperature, B: at the contact temperature theta_M + theta_fl. `pressure` p, MPa. 0 where one of both is so
+    /// high (above some 510 C) that the formula leaves no pressure-viscosity coefficient: such an oil makes no film. Source: ISO/TS 6336-22, film thickness (Dowson and Higginson, with the correction for heat).
     pub fn thickness_um(&self, place: &RollingPlace, pressure: f64) -> f64 {
         let oil = &self.lubrication.lubricant;
         let flash = flash_temperature(place, pressure, self.friction, self.contact, self.reduced_modulus, BLOK);
         let viscosity = |c: f64| 1e-3 * oil.dynamic_viscosity(c);
         let (bulk, hot) = (self.bulk_temperature_c, self.bulk_temperature_c + flash);
-        let material = 1e6 * pressure_viscosity(oil, bulk) * self.reduced_modulus;
+        let [alpha_bulk, alpha_hot] = [bulk, hot].map(|c| pressure_viscosity(oil, c));
+        if !(alpha_bulk > 0.0 && alpha_hot > 0.0) {
+            return 0.0;
+        }
+        let material = 1e6 * alpha_bulk * self.reduced_modulus;
         let speed = viscosity(bulk) * place.rolling_speed() / (2000.0 * self.reduced_modulus * place.relative_radius);
         let load = std::f64::consts::TAU * (pressure / self.reduced_modulus).powi(2);
-        let heat = pressure_viscosity(oil, hot) * viscosity(hot) / (pressure_viscosity(oil, bulk) * viscosity(bulk));
+        let heat = alpha_hot * viscosity(hot) / (alpha_bulk * viscosity(bulk));
         1600.0 * place.relative_radius * material.powf(0.6) * speed.powf(0.7) * load.powf(-0.13) * heat.powf(0.22)
     }
 

@@ -37,6 +37,9 @@ pub struct Spectrum {
 /// Share of the heaviest load below which loads do no damage.
 const LIGHT: f64 = 1e-3;
 
+/// Largest torque (N m) and speed (1/min) of a load: those that an operation may have.
+const LARGEST: [f64; 2] = [1e9, 1e7];
+
 /// Columns that say how long a load lasts: shares, or times in any unit.
 const DURATIONS: [&str; 3] = ["share", "duration_s", "duration_h"];
 
@@ -81,6 +84,10 @@ impl Spectrum {
             else {
                 return refused(line, format!("`{row}` has a value that is not a number of 0 or more"));
             };
+            if torque_nm > LARGEST[0] || speed_rpm > LARGEST[1] {
+                let [torque, speed] = LARGEST;
+                return refused(line, format!("`{row}`: at most {torque:e} N m and {speed:e} 1/min are taken"));
+            }
             bins.push(LoadBin { torque_nm, speed_rpm, share, face_load_factor: None, stiffness: None });
         }
         let sum: f64 = bins.iter().map(|bin| bin.share).sum();

@@ -2,7 +2,7 @@
 
 use analysis::{
     accuracy_chart::{Density, ResonanceCurve, ResonancePrecision, WorkPrecision},
-    flank_orders::FlankOrders,
+    flank_orders::{FlankOrders, FlankWaves},
     lumped::{LumpedCampbell, LumpedQuantity, SweepOptions},
     motion::{CampbellDiagram, MotionPrecision, MotionSpectrum, OrderCut, RunUp, Waterfall},
     parameter_study::{Findings, Follower},
@@ -91,7 +91,7 @@ fn of_motions() -> Vec<Table> {
         stretches: 0,
     };
     vec![
-        rows::spectrum(&MotionSpectrum::default()),
+        rows::spectrum(&MotionSpectrum::default(), &FlankWaves::default()),
         rows::waterfall(&Waterfall::default()),
         rows::cycles(&RunUp::default()),
         rows::order_cuts(&RunUp { cuts: vec![cut], ..RunUp::default() }),

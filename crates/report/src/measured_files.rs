@@ -57,7 +57,7 @@ pub fn measured_files(
     }
     let tables = vec![evaluation_table(name, &evaluation), ripple_table(name, &ripples)];
     files.extend(pictures(measured, name, &ripples));
-    let text = text(&flanks, &evaluation, &ripples, teeth) + "\nFor the scene:\n" + &scene;
+    let text = text(measured, &flanks, &evaluation, &ripples) + "\nFor the scene:\n" + &scene;
     Ok(MeasuredFiles { files, tables, text })
 }
 
@@ -139,11 +139,12 @@ fn pictures(measured: &MeasuredGear, name: &str, ripples: &[(Side, Vec<Ripple>);
 }
 
 fn text(
+    of: &MeasuredGear,
     flanks: &MeasuredFlanks,
     evaluation: &GearEvaluation,
     ripples: &[(Side, Vec<Ripple>); 2],
-    teeth: u32,
 ) -> String {
+    let teeth = of.header.teeth;
     let mut out = String::from("ISO 1328-1:2013, largest deviation of each kind\n");
     for (name, value, class) in &evaluation.classes {
         let class = class.map_or("beyond 11".to_owned(), |c| c.to_string());
@@ -163,7 +164,12 @@ fn text(
     for (measured, side) in flanks.measured_teeth.iter().zip([Side::Left, Side::Right]).filter(|(m, _)| !m.is_empty()) {
         let copies = teeth as usize - measured.len();
         let told = if copies == 0 { String::new() } else { format!("; the other {copies} are copies of the nearest") };
-        out += &format!("{} flanks of {} teeth were measured{told}\n", side.name(), measured.len());
+        let waves = if copies == 0 { "" } else { "; waves around the gear need profiles of all teeth" };
+        out += &format!("{} flanks of {} teeth were measured{told}{waves}\n", side.name(), measured.len());
+    }
+    let repeated = of.repeated_traces();
+    if repeated > 0 {
+        out += &format!("{repeated} traces were measured again at the same place: the last one counts\n");
     }
     let [below, above, lower, upper] = flanks.extrapolated_mm;
     if flanks.extrapolated_mm.iter().any(|mm| *mm > 0.0) {

@@ -17,6 +17,12 @@ pub(super) struct MeasuredArgs {
     #[arg(long, value_name = "GEAR=FILE", requires = "out", conflicts_with = "json")]
     measured: Option<String>,
     /// Where an XML file (VDI/VDE 2610) has its values: TOML with a path of elements a key, such as `teeth = "gear/@z"`
+    ///
+    /// From the root: `teeth`, `normal_module` (mm), `helix_angle` and `pressure_angle` (degrees), `profiles` and `helices`
+    /// (elements of one trace each). From a trace: `tooth`, `side`, `place` (height of a profile or diameter of a helix, mm),
+    /// `from` and `to` (diameters of a profile, heights of a helix, mm), `values` (um, positive where the flank stands proud).
+    /// Words: `left` and `right` (sides), `first_tooth` (number of the first tooth, 1 unless stated), `undefined` (number that
+    /// stands for no value).
     #[arg(long, value_name = "FILE", requires = "measured")]
     names: Option<PathBuf>,
     /// Folder for the files of `--measured`; created if missing
@@ -77,7 +83,8 @@ fn is_ours(path: &Path, content: &str) -> Result<(), CommandError> {
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, CommandError> {
     let read = files::read_regular_file(path, files::most::DATA);
-    read.map_err(|e| CommandError::input(format_args!("{}: {e}", path.display()), None))
+    let hint = || Some("name a file that exists and can be read".to_owned());
+    read.map_err(|e| CommandError::input(format_args!("{}: {e}", path.display()), hint()))
 }
 
 fn text_of(path: &Path) -> Result<String, CommandError> {

@@ -16,12 +16,17 @@ use scene::{
 use store::folder::beside_results;
 
 use super::{Answer, FileWords, cache_args::CacheArgs, overrides::Overrides};
-use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
+use crate::{
+    error::CommandError,
+    output::ResultDirectory,
+    phases::Phases,
+    talk::{self, Verbosity, say},
+};
 
 /// Tells what was evaluated, with its goal.
 fn tell(which: Evaluated, goal: Option<String>) {
     let goal = goal.unwrap_or_else(|| "no result".into());
-    talk::note(format!("{which}: {}", goal.trim_end()));
+    say(Verbosity::Bars, || format!("ale-gear: {which}: {}", goal.trim_end()));
 }
 
 /// Words of `ale-gear optimise`.

@@ -46,14 +46,16 @@ impl Rung {
         Self::ALL.iter().find(|r| **r > self).copied()
     }
 
-    /// The rung of both gears of a scene.
+    /// The rung of both gears of a scene; a gear that another mesh asks for may have more elements along the face.
     pub fn of(scene: &Scene) -> Option<Self> {
         let stands = |rung: &Self| {
             let own = rung.mesher(scene);
-            scene
-                .gears()
-                .iter()
-                .all(|g| g.mesher.is_some_and(|m| MesherScene { sector_teeth: m.sector_teeth, ..own } == m))
+            scene.gears().iter().all(|g| {
+                g.mesher.is_some_and(|m| {
+                    let face = own.elements_face.max(m.elements_face);
+                    MesherScene { sector_teeth: m.sector_teeth, elements_face: face, ..own } == m
+                })
+            })
         };
         Self::ALL.into_iter().find(stands)
     }

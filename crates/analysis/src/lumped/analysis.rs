@@ -25,6 +25,7 @@ use crate::{
     certificate::Checks,
     error::in_scene,
     facts::{Resolution, RunInfo},
+    flank_orders::FlankWaves,
     gears,
     in_motion::{self, MeshRecord, StepKeys, coarse_steps, steps_of_cycle, stretched},
     inputs::motion_of,
@@ -88,6 +89,8 @@ pub struct LumpedResult {
     pub static_cycle: Option<Vec<StaticPoint>>,
     /// Spectral lines of the evaluated mesh cycles.
     pub spectrum: MotionSpectrum,
+    /// Waves on the driving flanks, beside the orders of the spectrum.
+    pub flank_waves: FlankWaves,
     /// Largest values over speed, for a ramp.
     pub run_up: Option<RunUp>,
     /// Frequencies over speed, for a linear model.
@@ -272,7 +275,20 @@ fn result(
     let spectrum = judged.spectrum((run.judged as f64, frequencies.mesh_hz), whole)?;
     let LumpedRun { rows, energy, end, .. } = run;
     let (rows, energy) = (Arc::new(rows), Arc::new(energy));
-    Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
+    let flank_waves = FlankWaves::of(scene, &inputs.pair);
+    Ok(LumpedResult {
+        facts,
+        rows,
+        energy,
+        end,
+        static_cycle,
+        spectrum,
+        flank_waves,
+        run_up,
+        campbell,
+        headline,
+        remarks,
+    })
 }
 
 /// Steps of a motion at constant speed, `mean` of them in a mesh cycle on average; `None` of a ramp, of a mesh without one

@@ -26,6 +26,7 @@ use crate::{
     error::{in_scene, unasked},
     facts::RunInfo,
     failure::Failure,
+    flank_orders::FlankWaves,
     in_motion::{MeshRecord, StepKeys, steps_of_cycle, stretched},
     inputs::resolved_scene,
     refused::Refusal,
@@ -76,6 +77,8 @@ pub struct MotionResult {
     pub quasi_static: QuasiStatic,
     /// Spectrum of a motion at constant speed.
     pub spectrum: Option<MotionSpectrum>,
+    /// Waves on the driving flanks, beside the orders of the spectrum.
+    pub flank_waves: FlankWaves,
     /// Results of a motion with a speed ramp.
     pub ramp: Option<RampResult>,
     /// Pressure patterns on the driving flanks.
@@ -300,8 +303,20 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
     let FinishedMotion { rows, layout, patterns, .. } = done;
-    let rows = Arc::new(rows);
-    Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
+    let (rows, flank_waves) = (Arc::new(rows), FlankWaves::of(scene, &pair));
+    Ok(MotionResult {
+        pair,
+        rows,
+        layout,
+        headline,
+        quasi_static,
+        spectrum,
+        flank_waves,
+        ramp,
+        patterns,
+        facts,
+        remarks,
+    })
 }
 
 /// Steps of a motion at constant speed, `mean` of them in a mesh cycle on average; `None` of a ramp, and where they do not

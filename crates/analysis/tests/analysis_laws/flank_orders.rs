@@ -7,8 +7,9 @@ use std::fmt::Write as _;
 use analysis::{
     StaticAnalysis, StaticResult,
     flank_orders::{FlankOrders, FlankPart, TeLine},
+    motion::MotionAnalysis,
 };
-use scene::Scene;
+use scene::{Scene, SceneBuilder};
 
 const TEETH: u32 = 30;
 const GHOST: f64 = 61.0;
@@ -29,6 +30,10 @@ fn topography(folder: &std::path::Path, name: &str, of: impl Fn(u32, f64) -> f64
 }
 
 fn scene(topography: &str, torque_nm: f64) -> Scene {
+    turn(topography, torque_nm).set("output.flank_orders", true).build().unwrap()
+}
+
+fn turn(topography: &str, torque_nm: f64) -> SceneBuilder {
     let mut builder = Scene::builder().pinion(TEETH, 0.0).wheel(TEETH).normal_module_mm(3.0).face_width_mm(20.0);
     for gear in ["pinion", "wheel"] {
         builder = builder.set(&format!("{gear}.thickness_allowance_mm"), 0.05);
@@ -48,9 +53,6 @@ fn scene(topography: &str, torque_nm: f64) -> Scene {
         .set("analysis.turn", "pinion")
         .set("analysis.positions_per_cycle", 8)
         .set("contact.slices", 6)
-        .set("output.flank_orders", true)
-        .build()
-        .unwrap()
 }
 
 fn solved(topography: &str, torque_nm: f64) -> (FlankOrders, StaticResult) {
@@ -187,6 +189,33 @@ fn an_aliased_wave_is_told() {
     assert_eq!(told(8), None);
     let said = told(4).unwrap();
     assert!(said.contains("order 61") && said.contains("5 would do"), "{said}");
+}
+
+/// Whole turns of a slow motion have the order of a wave in the dynamic transmission error with the amplitude that it has at
+/// rest, beside the wave itself; at rest, mesh cycles that are no whole turn are told.
+#[test]
+fn a_motion_has_the_orders_of_its_flanks() {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |tooth: u32, roll: f64| 0.3 * (GHOST * (roll - TAU * f64::from(tooth) / f64::from(TEETH))).cos();
+    let file = topography(folder.path(), "wave.csv", wave);
+    let at_rest = |cycles: Option<u32>| {
+        let mut scene = scene(&file, 300.0);
+        scene.analysis.cycles = cycles.unwrap_or(scene.analysis.cycles);
+        StaticAnalysis::new(&scene).solve().unwrap()
+    };
+    let no_turn = |result: &StaticResult| result.history.remarks.iter().any(|own| own.code() == "orders_of_no_turn");
+    let whole = at_rest(None);
+    assert!(!no_turn(&whole) && no_turn(&at_rest(Some(31))));
+    let moving = turn(&file, 300.0).set("analysis.kind", "dynamic").set("operation.speed_rpm", 20.0);
+    let moving = moving.set("motion.steps_per_mesh_cycle", 64).build().unwrap();
+    let moved = MotionAnalysis::new(&moving).solve().unwrap();
+    let (spectrum, waves) = (moved.spectrum.unwrap(), moved.flank_waves);
+    let line = spectrum.orders.iter().position(|o| (o * f64::from(TEETH) - GHOST).abs() < 1e-9).unwrap();
+    let [own, wheel] = waves.amplitudes_um(spectrum.orders[line]);
+    assert!((own - 0.3).abs() < 0.005 && wheel == 0.0, "{own}, {wheel}");
+    let (dte, [a, b]) = (spectrum.amplitudes[0][line], of_order(&whole, GHOST));
+    println!("order 61 at rest {:.4} um, in slow motion {dte:.4} um", a.hypot(b));
+    assert!((dte / a.hypot(b) - 1.0).abs() < 0.03, "{dte} um in motion, {} um at rest", a.hypot(b));
 }
 
 /// Mesh cycles of a turn of either gear, and until the same teeth meet again.

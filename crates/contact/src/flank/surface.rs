@@ -86,10 +86,8 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn largest_deviation(&self) -> f64 {
         0.0
     }
-    /// First surface coordinate at a distance (mm) along the profile.
-    fn along_profile(&self, at: [f64; 2], distance: f64) -> f64 {
-        at[0] + distance / self.profile_tangent(at).norm()
-    }
+    /// What a band of contact sees of the measured flank beside a parabola: [`geometry::ModifiedFlank::beside_parabola`].
+    fn beside_parabola(&self, _at: [f64; 2], _distances: &[f64], _sums: &mut [f64]) {}
     /// Half of a typical contact band, mm, over which curvatures of [`Surface::depth`] are averaged; 0 without depth.
     fn band(&self) -> f64 {
         0.0
@@ -233,9 +231,8 @@ impl Surface for geometry::ModifiedFlank {
         geometry::ModifiedFlank::largest_deviation(self)
     }
 
-    /// On the nominal flank: x = r_b u^2 / 2.
-    fn along_profile(&self, [u, _]: [f64; 2], distance: f64) -> f64 {
-        (u * u + 2.0 * distance / self.nominal().base_radius).max(0.0).sqrt()
+    fn beside_parabola(&self, at: [f64; 2], distances: &[f64], sums: &mut [f64]) {
+        geometry::ModifiedFlank::beside_parabola(self, at, distances, sums);
     }
 
     fn band(&self) -> f64 {

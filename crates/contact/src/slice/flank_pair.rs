@@ -136,12 +136,9 @@ impl<'a> FlankPair<'a> {
         let local = local(self.flanks, at, off, None);
         let widest = BandMean::widest(local.radius);
         let mut samples = [0.0; SAMPLES];
+        let distances = BandMean::places().map(|x| x * widest);
         for (flank, at) in self.flanks.iter().zip(at) {
-            let surface = flank.patch.surface();
-            for (sum, x) in samples.iter_mut().zip(BandMean::places()) {
-                let both = [x * widest, -x * widest].map(|x| surface.deviation([surface.along_profile(at, x), at[1]]));
-                *sum += 0.5 * (both[0] + both[1]);
-            }
+            flank.patch.surface().beside_parabola(at, &distances, &mut samples);
         }
         let law = local.law();
         let load = law.load_of(widest);

@@ -327,6 +327,18 @@ impl SplitDepth {
         self.field.with_at_places(Some(|u: f64, z: f64| self.split.smooth(u, z)[0]), places, depths);
     }
 
+    /// The smooth part of the measured form alone at roll angle `u` and height `z` (mm): depth (mm) and its derivatives by
+    /// both.
+    pub(crate) fn smooth_form(&self, u: f64, z: f64) -> [f64; 3] {
+        self.split.smooth(u, z)
+    }
+
+    /// The roll angle of the profile that is nearest to one.
+    pub(crate) fn within(&self, u: f64) -> f64 {
+        let [form, tip] = self.field.size.roll;
+        u.clamp(form, tip)
+    }
+
     /// Depth of the flank below the smooth part, mm.
     pub fn deviation(&self, u: f64, z: f64) -> f64 {
         self.field.grid.as_ref().map_or(0.0, |grid| self.split.deviation(grid, u, z))

@@ -47,6 +47,32 @@ impl ModifiedFlank {
         self.split.as_ref().map_or(0.0, |split| split.deviation(u, z))
     }
 
+    /// What a band of contact about (`u`, `z`) sees beside the depth and the curvature of the smooth surface there: the
+    /// measured form at distances x (mm) along the profile either way, even part, added to `sums` (mm).
+    ///
+    /// ```text
+    /// d(x) = mean over both ways of [deviation(x) + f_s(x)] - f_s(0) - c x^2/2,   c: mean of f_s'' over -band .. band
+    /// ```
+    /// Within the profile; beyond its ends the value there. Nothing unless the flank was split.
+    pub fn beside_parabola(&self, [u, z]: [f64; 2], distances: &[f64], sums: &mut [f64]) {
+        let Some(split) = &self.split else { return };
+        let base = self.flank.base_radius;
+        let arc = base * u.max(f64::MIN_POSITIVE);
+        let step = self.band() / arc;
+        let slope = |u: f64| split.smooth_form(u, z)[1];
+        let curvature = (slope(u + step) - slope(u - step)) / (2.0 * step * arc * arc);
+        let here = split.smooth_form(u, z)[0];
+        for (sum, x) in sums.iter_mut().zip(distances) {
+            let both = [*x, -x].map(|x| {
+                let to = (u * u + 2.0 * x / base).max(0.0).sqrt();
+                let to = split.within(to);
+                let x = 0.5 * base * (to * to - u * u);
+                split.deviation(to, z) + split.smooth_form(to, z)[0] - here - 0.5 * curvature * x * x
+            });
+            *sum += 0.5 * (both[0] + both[1]);
+        }
+    }
+
     /// Largest magnitude of [`ModifiedFlank::deviation`], mm.
     pub fn largest_deviation(&self) -> f64 {
         self.split.as_ref().map_or(0.0, SplitDepth::largest_deviation)

@@ -77,6 +77,11 @@ fn damaged_files_name_the_line() {
     );
     assert_eq!(says(""), "g.mka: any curve is missing");
     assert_eq!(read("").unwrap_err().to_string(), "g.mka: line 22, the number of teeth, is missing");
+    // A number that stands for no value is no depth, unless the file says so.
+    let odd = format!("{heading} 1 -99999 3\n");
+    assert_eq!(says(&odd), "g.mka: profile of tooth 1, left: -99999 um is more than a quarter of the module (250 um)");
+    let told = read(&format!("{head}UNDEFINED -99999 ! none\n{odd}")).unwrap();
+    assert_eq!(told.traces[0].deviations_um, [Some(1.0), None, Some(3.0)]);
     let pitch = "linke Zahnflanke\n Zahn-Nr.  fp  Fp  Fr\n\n 1 .1 .1 0\n 3 .1 .2 0\n";
     assert_eq!(says(pitch), "g.mka:10: expected the teeth one after the other, from 1, found `3`");
 }

@@ -34,6 +34,23 @@ fn flanks_come_back_from_their_traces() {
     }
 }
 
+/// A trace that was measured again counts in place of the first one, and is counted.
+#[test]
+fn the_last_of_repeated_traces_counts() {
+    let gear = gear();
+    let header = header(&gear);
+    let of = |slope: f64| trace(&header, TraceKind::Profile(0.0), (2, Side::Left), |x| slope * x);
+    let made = |slopes: &[f64]| {
+        let traces = slopes.iter().map(|slope| of(*slope)).collect();
+        MeasuredGear { header, traces, pitch: Vec::new() }
+    };
+    let again = made(&[0.5, -0.2, 0.1]);
+    assert_eq!(again.repeated_traces(), 2);
+    let topographies = |of: &MeasuredGear| flanks(of, &gear).unwrap().topographies;
+    assert_eq!(topographies(&again), topographies(&made(&[0.1])));
+    assert_ne!(topographies(&again), topographies(&made(&[0.5])));
+}
+
 /// Pitch of both sides becomes one error a tooth; what that leaves out is said.
 #[test]
 fn pitch_becomes_one_error_a_tooth() {

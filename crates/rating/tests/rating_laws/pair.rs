@@ -218,6 +218,7 @@ fn damaged_spectra_are_refused() {
         ("torque_nm,speed_rpm,share\n1,2\n", "line 2: 2 values, the heading has 3"),
         ("torque_nm,speed_rpm,share\n1,2,3\n1,x,3\n", "line 3: `1,x,3` has a value that is not a number"),
         ("torque_nm,speed_rpm,share\n1,-2,3\n", "line 2:"),
+        ("torque_nm,speed_rpm,share\n1,1e12,3\n", "line 2: `1,1e12,3`: at most 1e9 N m and 1e7 1/min are taken"),
         ("torque_nm,speed_rpm,share,duration_h\n1,2,3,4\n", "line 1: `share` and `duration_h` both say how long"),
         ("torque_nm,torque_nm,speed_rpm,share\n1,2,3,4\n", "line 1: two columns are `torque_nm`"),
         ("torque_nm,speed_rpm,share\n1,2,0\n0,2,1\n", "line 1: no load with a torque and a speed lasts any time"),

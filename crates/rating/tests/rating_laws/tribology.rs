@@ -224,6 +224,9 @@ fn films_follow_speed_and_oil() {
     assert!(film(1165.9, 100.0, 240_064.4).safety < base.safety);
     let heavy = film(1165.9, 80.0, 2.0 * 240_064.4);
     assert!(heavy.safety < base.safety && heavy.safety > 0.6 * base.safety);
+    // Hotter than the law of the pressure-viscosity coefficient reaches: no film, in place of no number.
+    let burnt = film(1165.9, 600.0, 240_064.4);
+    assert_eq!((burnt.film_thickness_um, burnt.safety), (0.0, 0.0));
 }
 
 /// The test gears: H_v = 0.195, a contact stress at C of 1550 MPa at load stage 10 are built in; an oil that stands a higher stage is asked for a thinner film.

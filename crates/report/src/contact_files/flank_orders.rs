@@ -3,6 +3,12 @@
 use analysis::flank_orders::{FlankOrders, FlankPart, FlankShare, TeLine};
 use answer::Table;
 
+/// Meanings of the waves beside orders.
+pub const PINION_WAVE: &str =
+    "amplitude of the wave of this order on the driving flanks of the pinion, normal to them; 0 without one";
+/// The same of the wheel.
+pub const WHEEL_WAVE: &str = "amplitude of the wave of this order on the driving flanks of the wheel; 0 without one";
+
 /// Orders of the transmission error beside the waves of the flanks, and the shares of waves and teeth.
 pub fn flank_orders(found: &FlankOrders) -> [Table; 2] {
     let lines = || found.lines.iter();
@@ -38,16 +44,8 @@ pub fn flank_orders(found: &FlankOrders) -> [Table; 2] {
             "single-sided amplitude of what topographies and pitch errors of all teeth make under load, to first order",
             lines().map(|l| l.flanks_um),
         )
-        .numbers(
-            "pinion_wave_um",
-            "amplitude of the wave of this order on the driving flanks of the pinion, normal to them; 0 without one",
-            wave(0),
-        )
-        .numbers(
-            "wheel_wave_um",
-            "amplitude of the wave of this order on the driving flanks of the wheel; 0 without one",
-            wave(1),
-        );
+        .numbers("pinion_wave_um", PINION_WAVE, wave(0))
+        .numbers("wheel_wave_um", WHEEL_WAVE, wave(1));
     let shares = Table::new("te_shares")
         .numbers("mesh_order", "order of the mesh frequency: the twelve lines to which the flanks contribute most", shares().map(|s| s.mesh_order))
         .numbers("pinion_order", "order of one turn of the pinion", shares().map(|s| s.order[0]))

@@ -47,7 +47,7 @@ pub(super) fn write_lumped_result(
     let mut tables = vec![
         history.kept("history", &layout, &result.rows, |row| row),
         energy.kept("energy", &(), &result.energy, |row| row),
-        rows::spectrum(spectrum),
+        rows::spectrum(spectrum, &result.flank_waves),
     ];
     let places: Vec<f64> = (0..result.rows.len()).map(|i| i as f64 / h.rows_per_cycle as f64).collect();
     tables.insert(2, section(&tables[0], &places, 1.0)?);

@@ -44,7 +44,7 @@ pub(super) fn write_motion_result(
         history.kept("history", layout, all, |row| row).written(),
         energy.kept("energy", &(), all, |row| &row.energy).written(),
     ];
-    tables.extend(spectrum.as_ref().map(rows::spectrum));
+    tables.extend(spectrum.as_ref().map(|own| rows::spectrum(own, &result.flank_waves)));
     if let Some(ramp) = ramp {
         tables.extend([
             rows::waterfall(&ramp.waterfall),

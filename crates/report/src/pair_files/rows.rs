@@ -1,13 +1,17 @@
 //! Rows beside the histories of motions as tables.
 
 use analysis::{
+    flank_orders::FlankWaves,
     lumped::LumpedCampbell,
     motion::{CampbellDiagram, MotionSpectrum, RunUp, RunUpCycle, SWEEP_ORDERS, SweepRow, Waterfall},
 };
 use answer::Table;
 use study::Campbell;
 
-use crate::motion_files::{self, SPECTRA, WaterfallOf};
+use crate::{
+    contact_files::{PINION_WAVE, WHEEL_WAVE},
+    motion_files::{self, SPECTRA, WaterfallOf},
+};
 
 /// Meaning of the column `periodicity` of all sweeps.
 pub(super) const PERIODICITY: &str =
@@ -15,10 +19,16 @@ pub(super) const PERIODICITY: &str =
 /// Meaning of the column `status` of all sweeps.
 pub(super) const STATUS: &str = "`solved`; `not-periodic`: `periodicity` is above `periodic_tolerance`; `failed`: no motion, or one that fails its certificate";
 
-/// `spectrum`: lines of a motion at constant speed.
-pub(crate) fn spectrum(of: &MotionSpectrum) -> Table {
+/// `spectrum`: lines of a motion at constant speed, beside the waves of the flanks.
+pub(crate) fn spectrum(of: &MotionSpectrum, flanks: &FlankWaves) -> Table {
     let meaning = "single-sided amplitude; of order 0 the mean";
+    let at =
+        |gear: usize, what: fn(&FlankWaves, f64) -> [f64; 2]| of.orders.iter().map(move |o| what(flanks, *o)[gear]);
     motion_files::spectrum(of, SPECTRA.map(|name| (name.to_owned(), meaning)))
+        .numbers("pinion_order", "order of one turn of the pinion", at(0, FlankWaves::orders))
+        .numbers("wheel_order", "order of one turn of the wheel", at(1, FlankWaves::orders))
+        .numbers("pinion_wave_um", PINION_WAVE, at(0, FlankWaves::amplitudes_um))
+        .numbers("wheel_wave_um", WHEEL_WAVE, at(1, FlankWaves::amplitudes_um))
 }
 
 /// `waterfall`: spectra of a ramp, stretch by stretch.

@@ -147,13 +147,22 @@ pub(super) fn finish(plan: Plan) -> Checked<Plan> {
     }
     // A key that is none, or a scene that is wrong in all cases, is told before any work; values may be wrong in some
     // cases alone.
-    match plan.machine(0) {
-        Ok(_) | Err(SceneError::OutOfRange { .. } | SceneError::Geometry { .. }) => Ok(plan),
+    let tried = |case: usize| match plan.machine(case) {
+        Ok(_) | Err(SceneError::OutOfRange { .. } | SceneError::Geometry { .. }) => Ok(()),
         Err(e) => {
             plan.document.machine(&plan.settings)?;
             Err(e)
         }
+    };
+    tried(0)?;
+    // Texts may name files: each is read once.
+    for (i, axis) in plan.axes.iter().enumerate() {
+        for word in 1..axis.words.len() {
+            let has = |case: &usize| plan.cases.values(*case).get(i).is_some_and(|own| *own as usize == word);
+            (0..plan.cases.count()).find(has).map_or(Ok(()), &tried)?;
+        }
     }
+    Ok(plan)
 }
 
 /// Without the number of the axis, which the place of the complaint tells.

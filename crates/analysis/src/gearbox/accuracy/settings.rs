@@ -42,10 +42,15 @@ impl Free {
             ["pinion", "wheel"].iter().flat_map(|gear| counts.map(|key| format!("{gear}.mesher.{key}"))).collect();
         let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
         let scenes = || file.meshes.iter().map(|mesh| &mesh.scene);
-        Self {
-            meshes: scenes().map(|own| !has_own_mesh(own) && own.place_of(&keys).is_none()).collect(),
-            slices: scenes().map(|own| own.place_of(&["contact.slices"]).is_none()).collect(),
+        let mut meshes: Vec<bool> = scenes().map(|own| !has_own_mesh(own) && own.place_of(&keys).is_none()).collect();
+        // A gear has one mesh: who shares it with a mesh that is given takes that.
+        let touch = |i: usize, k: usize| file.meshes[i].gears.iter().any(|gear| file.meshes[k].gears.contains(gear));
+        while let Some(bound) =
+            (0..meshes.len()).find(|&i| meshes[i] && (0..meshes.len()).any(|k| !meshes[k] && touch(i, k)))
+        {
+            meshes[bound] = false;
         }
+        Self { meshes, slices: scenes().map(|own| own.place_of(&["contact.slices"]).is_none()).collect() }
     }
 }
 
@@ -70,6 +75,7 @@ impl Settings {
             }
             mesh.scene.contact.slices = Some(*slices);
         }
+        one_face(&mut own);
         (own.positions_per_cycle, own.shaft_elements) = (self.positions, self.shaft_elements);
         own
     }
@@ -147,5 +153,23 @@ impl Settings {
     pub fn more_elements(&self) -> Option<Self> {
         let shaft_elements = 2 * self.shaft_elements;
         (shaft_elements <= MOST_ELEMENTS).then(|| Self { shaft_elements, ..self.clone() })
+    }
+}
+
+/// Gears of several meshes, whose faces may differ in width: along the face each has the most elements that one of them asks for.
+fn one_face(file: &mut Gearbox) {
+    let mut most = vec![0; file.gears.len()];
+    for mesh in &file.meshes {
+        for (&gear, own) in mesh.gears.iter().zip(mesh.scene.gears()) {
+            most[gear] = most[gear].max(own.mesher.map_or(0, |m| m.elements_face));
+        }
+    }
+    for mesh in &mut file.meshes {
+        let gears = [&mut mesh.scene.pinion, &mut mesh.scene.wheel];
+        for (&gear, own) in mesh.gears.iter().zip(gears) {
+            if let Some(mesher) = &mut own.mesher {
+                mesher.elements_face = most[gear];
+            }
+        }
     }
 }
