@@ -51,7 +51,7 @@ impl ModifiedFlank {
     /// measured form at distances x (mm) along the profile either way, even part, added to `sums` (mm).
     ///
     /// ```text
-    /// d(x) = mean over both ways of [deviation(x) + f_s(x)] - f_s(0) - c x^2/2,   c: mean of f_s'' over -band .. band
+    /// d(x) = mean over both ways of deviation(x) + f_s(x) - f_s(0) - x f_s'(0) - c x^2/2,   c: mean of f_s'' over -band .. band
     /// ```
     /// Within the profile; beyond its ends the value there. Nothing unless the flank was split.
     pub fn beside_parabola(&self, [u, z]: [f64; 2], distances: &[f64], sums: &mut [f64]) {
@@ -61,13 +61,14 @@ impl ModifiedFlank {
         let step = self.band() / arc;
         let slope = |u: f64| split.smooth_form(u, z)[1];
         let curvature = (slope(u + step) - slope(u - step)) / (2.0 * step * arc * arc);
-        let here = split.smooth_form(u, z)[0];
+        let [here, by_roll, _] = split.smooth_form(u, z);
         for (sum, x) in sums.iter_mut().zip(distances) {
             let both = [*x, -x].map(|x| {
                 let to = (u * u + 2.0 * x / base).max(0.0).sqrt();
                 let to = split.within(to);
                 let x = 0.5 * base * (to * to - u * u);
-                split.deviation(to, z) + split.smooth_form(to, z)[0] - here - 0.5 * curvature * x * x
+                let parabola = here + x * (by_roll / arc + 0.5 * curvature * x);
+                split.deviation(to, z) + split.smooth_form(to, z)[0] - parabola
             });
             *sum += 0.5 * (both[0] + both[1]);
         }

@@ -394,8 +394,7 @@ fn flanks_by_tooth_show_while_their_tooth_is_in_mesh() {
 }
 
 /// One wave of the profile against a model that resolves it: points pressed by themselves on flanks with a dozen elements in
-/// the band and twenty in a wave, plane because Poisson's ratio is 0. No law of a band is in it. Under 3 GPa the slices take
-/// a part of the longer waves as curvature, and are told apart from the law.
+/// the band and twenty in a wave, plane because Poisson's ratio is 0. No law of a band is in it.
 #[test]
 fn a_resolved_model_sees_the_same_wave() {
     let data = default_data(0.0).map(|d| GearData { face_width: 2.0, ..d });
@@ -451,7 +450,7 @@ fn a_resolved_model_sees_the_same_wave() {
                 bessel(ka)
             );
             assert!((own - bessel(ka).abs()).abs() < 0.03, "order {order}: {own}, not {}", bessel(ka));
-            assert!(p > 2000.0 || off < 0.05, "order {order}: points {own}, slices {wanted}, apart by {off}");
+            assert!(off < 0.05, "order {order}: points {own}, slices {wanted}, apart by {off}");
         }
     }
 }
