@@ -38,7 +38,7 @@ answer::remarks! {
         "fewer `teeth` in [wheel.shaper] avoid that";
     root_stress_coarse(gear, stress_mpa, error_percent)
         "the {gear}'s root stress of {stress_mpa:.1} MPa may be {error_percent:.0} % off: its mesh is coarse in the fillet",
-        "raise `elements_fillet`, `elements_thickness` and `elements_rim` together, or bring a mesh that is finer there";
+        "take elements of order 2; raise `elements_fillet`, `elements_thickness` and `elements_rim` together, or bring a mesh that is finer there";
 
     // Resolution of the contact.
     few_face_elements(gear, elements, elements_enough)

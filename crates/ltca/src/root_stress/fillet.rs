@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use geometry::{Gear, Side};
 use mesh::{Face, Mesh, RootFillets};
 
-use super::turn::largest_turn;
+use super::turn::Coarseness;
 
 /// One fillet of a window.
 #[derive(Debug)]
@@ -23,8 +23,8 @@ pub(super) struct Fillet {
     lowest: Vec<bool>,
     /// Whether a node is below the [`FALLBACK_TANGENT`].
     below: Vec<bool>,
-    /// Angle by which the surface of the gear's fillets turns within one face, rad.
-    pub turn: f64,
+    /// How coarse the gear's fillets are.
+    pub coarseness: Coarseness,
 }
 
 /// Where stress is looked at in a fillet on which it has no peak: below this tangent, rad (25 deg).
@@ -45,7 +45,7 @@ pub(super) struct Surroundings<'a> {
     faces: Vec<Face>,
     /// Faces by node.
     about: BTreeMap<u32, Vec<usize>>,
-    turn: f64,
+    coarseness: Coarseness,
     fallback: f64,
 }
 
@@ -56,7 +56,7 @@ impl<'a> Surroundings<'a> {
         for (i, face) in faces.iter().enumerate() {
             face.nodes().iter().for_each(|&n| about.entry(n).or_default().push(i));
         }
-        Self { mesh, faces, about, turn: largest_turn(mesh, found.faces()), fallback }
+        Self { mesh, faces, about, coarseness: Coarseness::of(mesh, found.faces()), fallback }
     }
 
     /// The fillet with these nodes (ascending), whose positions in the window's list start at `first`.
@@ -84,7 +84,7 @@ impl<'a> Surroundings<'a> {
             uppermost: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| farther(n, m))).collect(),
             lowest: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| nearer(n, m))).collect(),
             below: nodes.iter().map(|&n| radius(n) <= self.fallback).collect(),
-            turn: self.turn,
+            coarseness: self.coarseness,
             neighbours: neighbours.into_iter().map(|of| of.into_iter().map(|m| first + m).collect()).collect(),
         }
     }

@@ -10,7 +10,6 @@ use geometry::{Gear, GearData, GearPair};
 use ltca::StressPeak;
 use mesh::{Extent, StructuredOptions};
 use testing::Random;
-use testing::quadratic;
 
 /// Elements along profile and fillet, across the tooth, along the face, in the rim.
 type Counts = [u32; 5];
@@ -36,7 +35,12 @@ struct Loaded {
 
 /// Largest root tension of both gears over `positions` of a mesh cycle.
 fn tension(pair: &Loaded, counts: Counts, positions: usize) -> [StressPeak; 2] {
-    let mut case = quadratic(pair.gears.clone(), None, pair.torque, counts, Extent::Periodic);
+    tension_of_order(2, pair, counts, positions)
+}
+
+/// The same on elements of an order.
+fn tension_of_order(order: u32, pair: &Loaded, counts: Counts, positions: usize) -> [StressPeak; 2] {
+    let mut case = testing::of_order(order, pair.gears.clone(), None, pair.torque, counts, Extent::Periodic);
     case.meshes = case.meshes.map(|sector| sector.whole().unwrap());
     let options = ltca::StaticOptions { root_stress: true, ..case.slice_options() };
     let positions = case.reduced(options).run(positions, 1, |_, _, _| ()).unwrap().positions;
@@ -102,6 +106,33 @@ fn default_sections_are_settled() {
     ] {
         for [off, said] in compare(name, &pair, own, finer(own, 2.0)) {
             assert!(off.abs() < 3.0, "{name}: {off} % off, {said} % said");
+        }
+    }
+}
+
+/// Elements of order 1 give too small a root stress: by no more than is said, be the fillet coarse or the rim below it, and by
+/// a fifth of that at the least.
+#[test]
+fn linear_elements_say_how_far_they_are_off() {
+    let pair = section([30, 40], [0.1, 0.0], [4.0, 4.0]);
+    let reference = tension(&pair, finer(one_layer(default_counts()), 1.5), 2);
+    for (profile, fillet, thickness, rim) in [(2, 2, 2, 2), (4, 4, 4, 4), (6, 6, 4, 2), (8, 8, 6, 8), (12, 12, 8, 16)] {
+        let own = tension_of_order(1, &pair, [profile, fillet, thickness, 1, rim], 2);
+        for (own, reference) in own.iter().zip(&reference) {
+            let (off, said) = (reference.stress / own.stress - 1.0, own.relative_error());
+            println!(
+                "{fillet} along the fillet, {rim} in the rim: {:.1} of {:.1} MPa, {:.1} % more, said {:.1} %; turn {:.3}, depth {:.2}",
+                own.stress,
+                reference.stress,
+                100.0 * off,
+                100.0 * said,
+                own.turn,
+                own.depth
+            );
+            assert!(
+                off > -0.02 && off < 1.2 * said && said < 5.0 * off + 0.06,
+                "{fillet}, {rim}: {off} off, {said} said"
+            );
         }
     }
 }
