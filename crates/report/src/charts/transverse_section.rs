@@ -19,8 +19,8 @@ pub struct TransverseSection<'a> {
     pub driver: Driver,
     /// Sense of rotation of the pinion, seen against +z.
     pub sense: Sense,
-    /// Speed of pinion and wheel, 1/min.
-    pub speeds_rpm: [f64; 2],
+    /// First and last speed of pinion and wheel, 1/min.
+    pub speeds_rpm: [[f64; 2]; 2],
     /// Torque on pinion and wheel, N m.
     pub torques_nm: [f64; 2],
 }
@@ -98,11 +98,7 @@ impl TransverseSection<'_> {
             let role = if (i == 0) == (self.driver == Driver::Pinion) { "drives" } else { "is driven" };
             let words = [
                 format!("{name}, z {}, {role}", self.gears()[i].teeth()),
-                format!(
-                    "{:.0} 1/min, {} N m",
-                    self.speeds_rpm[i].abs(),
-                    crate::tables::fixed(self.torques_nm[i].abs(), 1)
-                ),
+                format!("{} 1/min, {} N m", self.speed(i), crate::tables::fixed(self.torques_nm[i].abs(), 1)),
             ];
             let [x, y] = frame.place([centres[i], 0.0]);
             // The pinion's words are below it, the wheel's above: side by side they would not fit.
@@ -115,6 +111,12 @@ impl TransverseSection<'_> {
             }
         }
         svg
+    }
+
+    /// Speed of a gear, or its first and last one, 1/min.
+    fn speed(&self, gear: usize) -> String {
+        let [from, to] = self.speeds_rpm[gear].map(|rpm| format!("{:.0}", rpm.abs()));
+        if from == to { from } else { format!("{from} .. {to}") }
     }
 
     /// +1 where a gear turns counter-clockwise seen against +z.
@@ -317,7 +319,7 @@ mod tests {
                     side,
                     driver: Driver::Pinion,
                     sense: Sense::Ccw,
-                    speeds_rpm: [1000.0, 500.0],
+                    speeds_rpm: [[1000.0; 2], [500.0; 2]],
                     torques_nm: [50.0, 100.0],
                 };
                 let from = |gear: usize, xi: f64| {

@@ -178,8 +178,8 @@ fn pressed_pairs(of: &Table) -> Result<Vec<String>, ReportError> {
 
 /// Axis of speeds of a driver with so many teeth; mesh frequency goes with it.
 fn speed_axis(teeth: u32) -> String {
-    let hz = f64::from(teeth) / 60.0;
-    format!("speed of the driver [1/min], each {hz:.4} Hz of mesh frequency")
+    let hz = format!("{:.4}", f64::from(teeth) / 60.0);
+    format!("speed of the driver [1/min], each {} Hz of mesh frequency", hz.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// What a ramp is made for: peak to peak, order cuts and forces over speed.

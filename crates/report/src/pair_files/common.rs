@@ -137,6 +137,9 @@ fn transverse_section(scene: &Scene) -> Result<Part, ReportError> {
     let operation = &scene.operation;
     let ratio = f64::from(scene.wheel.teeth).abs() / f64::from(scene.pinion.teeth);
     let pinion_rpm = scene.pinion_speed() * 30.0 / PI;
+    let own = operation.speed_rpm;
+    let of_driver = speed_ends(scene).unwrap_or([own, own]);
+    let speeds_rpm = [pinion_rpm, pinion_rpm / ratio].map(|rpm| of_driver.map(|end| rpm * end / own));
     let torques_nm = match operation.driver {
         Driver::Pinion => [operation.torque_nm / ratio, operation.torque_nm],
         Driver::Wheel => [operation.torque_nm, operation.torque_nm * ratio],
@@ -146,7 +149,7 @@ fn transverse_section(scene: &Scene) -> Result<Part, ReportError> {
         side: scene.side(),
         driver: operation.driver,
         sense: operation.rotation,
-        speeds_rpm: [pinion_rpm, pinion_rpm / ratio],
+        speeds_rpm,
         torques_nm,
     };
     Ok(Part::more().with(Content::Html(section.figure())).note(
@@ -203,12 +206,16 @@ fn widths(scene: &Scene) -> String {
     }
 }
 
+/// First and last speed of the driver where it changes.
+fn speed_ends(scene: &Scene) -> Option<[f64; 2]> {
+    let motion = scene.motion.as_ref()?;
+    let ramp = motion.ramp.as_ref().map(|r| [r.from_rpm, r.to_rpm]);
+    ramp.or(motion.sweep.as_ref().map(|s| [s.from_rpm, s.to_rpm]))
+}
+
 /// The speed of the driver, or the first and the last one.
 fn speeds(scene: &Scene) -> String {
-    let motion = scene.motion.as_ref();
-    let ramp = motion.and_then(|m| m.ramp.as_ref()).map(|r| [r.from_rpm, r.to_rpm]);
-    let ends = ramp.or(motion.and_then(|m| m.sweep.as_ref()).map(|s| [s.from_rpm, s.to_rpm]));
-    ends.map_or_else(|| scene.operation.speed_rpm.to_string(), |[from, to]| format!("{from} .. {to}"))
+    speed_ends(scene).map_or_else(|| scene.operation.speed_rpm.to_string(), |[from, to]| format!("{from} .. {to}"))
 }
 
 /// Slices and elements along the face, and whether the program chose them.
