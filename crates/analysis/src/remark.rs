@@ -45,7 +45,7 @@ answer::remarks! {
         "{elements} elements along the face of the {gear} are few for its width",
         "{elements_enough} would do (`elements_face` in [{gear}.mesher]; left out, the program chooses)";
     few_slices(slices, mean_error_percent, swing_error_percent, peak_error_percent, slices_enough)
-        "{slices} slices are few for this pair: a row of springs over its gaps is off by {mean_error_percent:.1} % in the mean, {swing_error_percent:.0} % in the peak to peak and {peak_error_percent:.0} % in the largest line load",
+        "{slices} slices are few for this pair: on a row of independent springs they are off by {mean_error_percent:.1} % in the mean, {swing_error_percent:.0} % in the peak to peak and {peak_error_percent:.0} % in the largest line load",
         "{slices_enough} would do (`slices` in [contact]; left out, the program chooses)";
     short_waves(gear, flank, share_percent, rms_um, longest_mm, wave_number_limit, half_width_mm, wave_number_rad_per_mm, wave_number_by_half_width, wavelength_mm, pressure_mpa)
         "the topography of the {gear}'s {flank} flanks holds waves shorter than the contact band: {share_percent:.0} % of its deviation (rms {rms_um:.3} um, parabola taken off) is shorter than {longest_mm:.2} mm along the profile, k a above {wave_number_limit} beside a band of half-width a = {half_width_mm:.3} mm; the largest has k = {wave_number_rad_per_mm:.2} rad/mm (k a = {wave_number_by_half_width:.2}, wavelength {wavelength_mm:.3} mm). The transmission error has their mean over the band. The largest pressure is that of the smooth flank: pressed flat, these waves add {pressure_mpa:.0} MPa to it (rms)",
@@ -65,13 +65,13 @@ answer::remarks! {
         "driving and coast flanks press at once in {positions} of {of_positions} positions, the gears jam: normal forces add up to {normal_force_n:.0} N, {times} the {needed_n:.0} N that the torque asks for",
         "give more backlash (`thickness_allowance_mm` in [pinion] and [wheel], `centre_distance_mm` in [pair]) or less misalignment";
     light_load(approach_mm, round_off_mm)
-        "the load is too light for its result: teeth approach each other by {approach_mm:.1e} mm at the most, and places are known to {round_off_mm:.1e} mm only; transmission error, stiffness and contact lines have few digits or none",
+        "the load is too light: the teeth approach each other by at most {approach_mm:.1e} mm, and positions are accurate to {round_off_mm:.1e} mm only; transmission error, stiffness and contact lines have few correct digits or none",
         "take a larger torque, or none";
     large_deflection(transmission_error_mm, module_mm)
         "the transmission error reaches {transmission_error_mm:.3} mm at a module of {module_mm} mm: elasticity here is linear and holds for small deflections",
         "is the torque in N m?";
     doubtful_load(estimate, limit_modules, cure)
-        "{estimate}; beyond {limit_modules} modules a result is none", "{cure}";
+        "{estimate}; beyond {limit_modules} modules a result means nothing", "{cure}";
 
     // Values that are possible and unlikely.
     soft_material(gear, young_mpa, other) "`young_mpa` of the {gear} is {young_mpa}, softer than plastics", "{other}";
@@ -119,18 +119,18 @@ answer::remarks! {
         "model \"iso\": stiffness after ISO 6336-1, load spread evenly over the contact lines, and {bending_um:.2} um by which the axial force bends the bodies, solid discs held at their bores; mean values are meant to hold within about 25 %, the shape over the mesh cycle is a rough guess",
         "";
     iso_low_contact_ratio(contact_ratio, least_contact_ratio)
-        "model \"iso\": the transverse contact ratio is {contact_ratio:.3}; below {least_contact_ratio} ISO 6336-1 wants less stiffness, by up to 10 % for spur gears, and gives no formula",
+        "model \"iso\": the transverse contact ratio is {contact_ratio:.3}; below {least_contact_ratio} ISO 6336-1 asks for a lower stiffness, by up to 10 % for spur gears, and gives no formula",
         "";
     iso_soft_bodies(bending_percent)
-        "model \"iso\": the axial force bends the bodies by {bending_percent:.0} % of the teeth's own deflection: webs, rims and hubs decide, which only `model = \"reduced\"` on meshes of the true bodies knows",
-        "";
+        "model \"iso\": the axial force bends the bodies by {bending_percent:.0} % of the teeth's own deflection: webs, rims and hubs then matter, which the formula leaves out",
+        "use `model = \"reduced\"` with meshes of the true bodies";
 
     // Motion.
     coarse_steps(steps_in_period, motion, frequency_hz, cure)
-        "a step is 1/{steps_in_period:.1} of the period of the {motion} ({frequency_hz:.0} Hz), which it cannot show",
+        "a step is 1/{steps_in_period:.1} of the period of the {motion} ({frequency_hz:.0} Hz): too long to resolve it",
         "take {cure}";
     slow_pair(periods, fastest_hz, steps)
-        "a mesh cycle lasts {periods:.0} periods of the fastest motion that steps have to show ({fastest_hz:.3e} Hz), so it takes {steps:.0} steps; so slow a pair has nearly the answer of `kind = \"static\"`",
+        "a mesh cycle lasts {periods:.0} periods of the fastest motion that steps must resolve ({fastest_hz:.3e} Hz), so it takes {steps:.0} steps; at such a low speed `kind = \"static\"` gives nearly the same answer",
         "";
     many_steps(estimate, highest_hz)
         "with its normal modes this motion takes {estimate}: the highest kept mode, {highest_hz:.0} Hz, sets their length, and the lowest settles slowly",
@@ -142,7 +142,7 @@ answer::remarks! {
         "the mesh has no backlash: where the driving flanks lose contact the coast flanks press at once, and there is no loss of contact as with a clearance",
         "give {or}`thickness_allowance_mm` in [pinion] and [wheel]";
     repeats_and_drifts(tolerance, mesh_cycles, off)
-        "the motion repeated itself to {tolerance:.0e} of its peak to peak after {mesh_cycles} mesh cycles, but those that were written do so to {off:.1e} only",
+        "the motion repeated itself to {tolerance:.0e} of its peak to peak after {mesh_cycles} mesh cycles, but the cycles that were written repeat to {off:.1e} only",
         "ask for a smaller `periodic_tolerance`, or give a transient more damping";
     not_periodic(mesh_cycles, off, tolerance, why)
         "the motion does not repeat itself: after {mesh_cycles} mesh cycles it is off by {off:.1e} of its peak to peak (asked: {tolerance:.0e}); {why}",
@@ -151,16 +151,16 @@ answer::remarks! {
         "the meshes do not come back together within 100000 cycles of the fastest: section.csv is not written", "";
     subharmonic(mesh_cycles) "the motion repeats itself after {mesh_cycles} mesh cycles: a subharmonic answer", "";
     work_open(share)
-        "energy closes to {share:.1e} of the work that goes through the pair only (asked: 1e-6)",
+        "the energy balance closes only to {share:.1e} of the work that goes through the pair (asked: 1e-6)",
         "take smaller steps or `method = \"energy\"`";
     vibration_energy_open(share, limit, cure)
-        "energy closes to {share:.1e} of the energy of the vibration only (asked: {limit:.0e})",
+        "the energy balance closes only to {share:.1e} of the energy of the vibration (asked: {limit:.0e})",
         "{cure}";
     gap_beyond_backlash(gap_um, backlash_um)
         "the gap between the driving flanks reaches {gap_um:.1} um, more than the backlash of {backlash_um:.1} um: the coast flanks would touch",
         "use `flanks = \"both\"`";
     both_flanks_press(rows, bound_um)
-        "in {rows} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {bound_um:.3} um",
+        "in {rows} rows driving and coast flanks press at once; that each side also bends the teeth of the other is left out, which shifts positions by up to {bound_um:.3} um",
         "a backlash keeps them apart";
     speed_has_changed(mean_rpm, start_rpm)
         "the driver's mean speed is {mean_rpm:.1} rpm, it began with {start_rpm:.1} rpm: mesh cycles, and orders of the spectrum, are those of the start",
@@ -178,13 +178,13 @@ answer::remarks! {
         "mesh harmonic {harmonic} at {harmonic_hz:.0} Hz is {ratio:.2} of the {gear}'s {mode}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {change_um:.3} um, {change_percent:.0} % of it (reported from {limit_percent:.1} % on)",
         "{remedy}, {price}";
     inertia_not_judged()
-        "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed says so",
+        "elasticity is quasi-static; how much its inertia would change is estimated by a run at one speed alone",
         "";
     whole_cycles(cycles, lasts_s, duration_s)
         "whole mesh cycles are run: {cycles}, which last {lasts_s:.4e} s where {duration_s:?} s were asked for",
         "";
     run_up_torque(duration_s, inertia_torque_nm, place, share_percent, load_torque_nm, cure)
-        "the speed changes within {duration_s} s: that takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
+        "the speed changes within {duration_s} s: that takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the load of {load_torque_nm:.1} N m there, and the meshes carry the sum",
         "{cure}";
     coarse_order_cut(points, order, speed_rpm, points_enough, times, cure)
         "the peak of order {order} at {speed_rpm:.0} rpm has {points} of the {points_enough} points across it that show its height and place",
@@ -230,8 +230,8 @@ answer::remarks! {
         "along the branch rolling bearings are springs about their mean equilibrium; motions integrated in time follow the laws of the bearings",
         "";
     vibration_beyond_load(force_n, speed_rpm, order, exciting, load_n, speeds, of_speeds, listed)
-        "the linear vibration takes up to {force_n:.0} N off the mean load of {load_n:.0} N at {speed_rpm:.0} rpm, most of it by order {order} of mesh {exciting}: the flanks would lose contact, which a linear vibration does not know; so at {speeds} of {of_speeds} speeds ({listed})",
-        "a motion at these speeds knows the loss of contact (`[motion]` with `mesh = \"mapped\"`)";
+        "the linear vibration takes up to {force_n:.0} N off the mean load of {load_n:.0} N at {speed_rpm:.0} rpm, most of it by order {order} of mesh {exciting}: the flanks would lose contact, which a linear vibration leaves out; so at {speeds} of {of_speeds} speeds ({listed})",
+        "a motion at these speeds includes it (`[motion]` with `mesh = \"mapped\"`)";
     bearings_estimated(bearings, estimates)
         "rolling elements or ratings of {bearings} bearings are estimated from bore, outer diameter and static rating or width: {estimates}",
         "state `elements` with their sizes, `static_rating_kn` and `dynamic_rating_kn` where they are known";
@@ -243,7 +243,7 @@ answer::remarks! {
         "bearing {bearing} tilts by {tilt_mrad:.1} mrad: catalogues let {elements} bearings tilt by some {limit_mrad:.1} mrad at most",
         "";
     bearing_fast(bearing, speed_factor_mm_per_min, limit_mm_per_min)
-        "bearing {bearing} runs at n d_m = {speed_factor_mm_per_min:.0} mm/min: above some {limit_mm_per_min:.0} mm/min centrifugal forces press its elements to the outer ring, which stiffness, life and loss leave out",
+        "bearing {bearing} runs at n d_m = {speed_factor_mm_per_min:.0} mm/min: above some {limit_mm_per_min:.0} mm/min centrifugal forces press its elements to the outer ring, which are left out of stiffness, life and loss",
         "";
     bearing_pressure(bearing, pressure_mpa, element, limit_mpa)
         "bearing {bearing}: {pressure_mpa:.0} MPa on a {element}, beyond the {limit_mpa:.0} MPa of the static rating (ISO 76): steel no longer stays elastic",
@@ -256,12 +256,12 @@ answer::remarks! {
         "take a thicker oil";
     seat_elsewhere(gear, held_mm, seat_mm, better_seat_mm)
         "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm",
-        "say `seat_mm = {better_seat_mm:.3}`";
+        "set `seat_mm = {better_seat_mm:.3}`";
     few_gear_modes(gear, highest_hz, excitation_hz, enough_hz)
         "the elastic modes of gear {gear} are kept up to {highest_hz:.0} Hz, and mesh orders reach {excitation_hz:.0} Hz: beyond its modes the gear deflects as at rest",
         "keep more modes: `below_hz = {enough_hz:.0}` in place of `count` in [modes]";
     gear_modes_do_not_travel(gear)
-        "gear {gear} is not known by one sector: its elastic modes are taken as they stand with the input at its start, without what rotation does to them",
+        "gear {gear} is not cyclic: its elastic modes are those of its angle at the start and do not turn with it",
         "mesh one periodic sector (`sector_teeth = 1`)";
     gears_at_one_place(gear, other, shaft) "gears {gear} and {other} stand at one place of shaft {shaft}", "";
     gear_beyond_shaft(gear, beyond_mm, shaft)
@@ -293,20 +293,20 @@ answer::remarks! {
 
     // Many cases.
     pressure_limit_passed(limits, by)
-        "the limit of the pressure, {limits}, is {by}: no design was found that holds it", "";
-    limit_passed(limits) "no design was found that holds its limits: {limits}", "";
+        "the limit of the pressure, {limits}, is {by}: no design was found that keeps it", "";
+    limit_passed(limits) "no design was found that keeps its limits: {limits}", "";
     cases_unsolved(cases, of_cases)
         "{cases} of {of_cases} cases have no result: `reason` in cases.csv says why", "";
     case_unsolved(reason) "no result: {reason}; tables, charts and correlations are without it", "";
     no_correlation(column, beside, reason) "no correlation of {column} with {beside}: {reason}", "";
-    no_full_model(reason) "nothing to compare every degree of freedom with: {reason}", "";
+    no_full_model(reason) "there is no model of all degrees of freedom to compare with: {reason}", "";
     result_failed(run, words) "{run} FAILED A CHECK: {words}", "";
 
     // Stores and pictures.
     gear_not_loaded(file, reason) "{file}: {reason}; the gear was reduced again", "";
     gear_not_stored(file, reason) "{file}: {reason}; the next run will reduce the gear again", "";
     pitch_errors_on_map(checks, rms_error_um, largest_error_um, error_percent)
-        "pitch errors act on the map as an offset of each tooth pair: beside exact contact at {checks} places the approach is off by {rms_error_um:.3} um (rms) and {largest_error_um:.3} um (largest), {error_percent:.2} % of the mean deflection",
+        "pitch errors act on the map as an offset of each tooth pair: compared with exact contact at {checks} points, the approach is off by {rms_error_um:.3} um (rms) and {largest_error_um:.3} um (largest), {error_percent:.2} % of the mean deflection",
         "exact contact has no such error: `model = \"reduced\"`, in a gearbox `mesh = \"exact\"` in [motion]";
     map_not_loaded(file, reason) "{file}: {reason}; the contact was mapped again", "";
     map_not_stored(file, reason) "{file}: {reason}; the next run will map the contact again", "";

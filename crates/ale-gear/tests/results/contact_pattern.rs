@@ -245,7 +245,7 @@ fn few_slices_are_remarked_on() {
     let scratch = Scratch::new().file("a.toml", scene().replace(&format!("slices = {SLICES}"), "slices = 4"));
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let warning = "4 slices are few for this pair: a row of springs over its gaps is off by";
+    let warning = "4 slices are few for this pair: on a row of independent springs they are off by";
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     let remarks = summary["remarks"].to_string();
     assert!(remarks.contains(warning) && remarks.contains(&format!("{enough} would do")), "{remarks}");
