@@ -21,6 +21,7 @@ impl BoreScene {
             width: bolts.width_mm,
             heights: bolts.over_mm,
             stiffness: [bolts.radial_n_per_mm, bolts.tangential_n_per_mm, bolts.axial_n_per_mm],
+            opens_beyond: bolts.opens.then_some(bolts.preload_n),
         });
         Foundation::new([self.radial_n_per_mm3, self.tangential_n_per_mm3, self.axial_n_per_mm3], bolts)
     }

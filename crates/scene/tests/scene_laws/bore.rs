@@ -31,7 +31,7 @@ fn a_bore_is_read_as_it_is_written() {
     let found =
         read(&bolts(6, "first_angle_deg = 30.0\nover_mm = [-4.0, 4.0]\n")).unwrap().wheel.bore.foundation().unwrap();
     let (first_angle, heights, stiffness) = (30f64.to_radians(), Some([-4.0, 4.0]), [0.0, 2e5, 1e5]);
-    let wanted = Bolts { count: 6, first_angle, width: 8.0, heights, stiffness };
+    let wanted = Bolts { count: 6, first_angle, width: 8.0, heights, stiffness, opens_beyond: None };
     assert_eq!(found, Foundation::new([0.0; 3], Some(wanted)).unwrap());
     for (scene, said) in [
         ("[wheel.bore]\ncoupling = \"elastic\"\n[wheel.bore.bolts]\ncount = 6\n".into(), "an arc of the bore"),
