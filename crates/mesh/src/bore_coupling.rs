@@ -56,4 +56,14 @@ impl BoreCoupling {
         }
         Foundation::new(around, None).ok().map(|springs| (Self::Elastic(springs), bolts))
     }
+
+    /// This coupling of a gear whose teeth are counted from one on that stands this angle (rad) further: its bolts stand as far
+    /// back.
+    pub fn counted_from(self, angle: f64) -> Self {
+        let Some((foundation, bolts)) = self.foundation().and_then(|own| Some((own, own.bolts()?))) else {
+            return self;
+        };
+        let bolts = Bolts { first_angle: bolts.first_angle - angle, ..bolts };
+        Foundation::new(foundation.all_around(), Some(bolts)).map_or(self, Self::Elastic)
+    }
 }

@@ -23,6 +23,9 @@ use crate::{
 /// Freedoms under bolts up to which their matrices are dense: 2,000 take 32 MB and some seconds.
 const MOST_ROWS: usize = 2000;
 
+/// Pitches that are round-off of an angle.
+const SAME_PLACE: f64 = 1e-9;
+
 /// A cyclic gear on bolts.
 ///
 /// ```text
@@ -210,7 +213,8 @@ impl BoltedGear {
         Ok(Mat::from_fn(found.nrows(), found.ncols(), |i, j| 0.5 * (found[(i, j)] + found[(j, i)])))
     }
 
-    /// Displacements (mm) of a window under unit forces (N) on another one, of this gear or of another reduction of it, 3n x 3m.
+    /// Displacements (mm) of a window under unit forces (N) on another one, of this gear or of another reduction of it, whose teeth
+    /// may be counted from another one on: its bolts then stand as many pitches back. 3n x 3m, each window in its own frame.
     ///
     /// # Errors
     /// [`ReductionError::OtherReduction`], [`ReductionError::OtherGear`].
@@ -219,13 +223,34 @@ impl BoltedGear {
         loads: &[Load],
         (other, theirs): (&Self, &[Load]),
     ) -> Result<Mat<f64>, ReductionError> {
-        if self.bolts != other.bolts || self.rows.len() != other.rows.len() {
-            return Err(ReductionError::OtherReduction);
-        }
-        let [own, theirs] = [self.spots(loads)?, other.spots(theirs)?];
-        let free = self.cyclic.between_spots(&other.cyclic, [&own, &theirs])?;
+        let on = self.pitches_on(other).ok_or(ReductionError::OtherReduction)?;
+        let z = self.cyclic.part.teeth;
+        let own = self.spots(loads)?;
+        let theirs = other.spots(theirs)?;
+        let placed: Vec<Spot> = theirs.iter().map(|spot| Spot { copy: (spot.copy + on) % z, ..*spot }).collect();
+        let free = self.cyclic.between_spots(&other.cyclic, [&own, &placed])?;
         let carried = dense::product(other.held.as_ref(), other.moved_by(&theirs).as_ref());
-        Ok(free - dense::product(self.seen_by(&own).as_ref(), carried.as_ref()))
+        let m = self.rows.len();
+        let mut here = carried.clone();
+        for (i, &(copy, row)) in other.rows.iter().enumerate() {
+            let at = self.rows.binary_search(&((copy + on) % z, row)).map_err(|_| ReductionError::OtherReduction)?;
+            here.row_mut(at).copy_from(carried.row(i));
+        }
+        if self.cyclic.seat.is_some() {
+            let motion = carried.subrows(m, carried.nrows() - m);
+            here.as_mut().subrows_mut(m, carried.nrows() - m).copy_from(turned(motion, self.cyclic.angle(on)));
+        }
+        Ok(free - dense::product(self.seen_by(&own).as_ref(), here.as_ref()))
+    }
+
+    /// Pitches by which tooth 0 of another reduction of the same gear on bolts stands on from that of this one; `None` where it is
+    /// no such reduction.
+    fn pitches_on(&self, other: &Self) -> Option<u32> {
+        let (z, pitch) = (self.cyclic.part.teeth, self.cyclic.angle(1));
+        let on = (self.bolts.first_angle - other.bolts.first_angle) / pitch;
+        let alike = self.bolts == Bolts { first_angle: self.bolts.first_angle, ..other.bolts };
+        let same = alike && (on - on.round()).abs() < SAME_PLACE && self.rows.len() == other.rows.len();
+        same.then(|| (on.round() as i64).rem_euclid(i64::from(z)) as u32)
     }
 
     /// [U_f R_f]' of a window, (m + 6) x 3n.
