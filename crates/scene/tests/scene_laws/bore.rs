@@ -35,6 +35,7 @@ fn a_bore_is_read_as_it_is_written() {
     assert_eq!(found, Foundation::new([0.0; 3], Some(wanted)).unwrap());
     for (scene, said) in [
         ("[wheel.bore]\ncoupling = \"elastic\"\n[wheel.bore.bolts]\ncount = 6\n".into(), "an arc of the bore"),
+        (bolts(6, "preload_n = 5.0\n"), "`preload_n` is of bolts that open"),
         (bolts(2, ""), "2 bolts alone"),
         (bolts(6, "over_mm = [3.0, 2.0]\n"), "`over_mm` is not two heights"),
     ] {
