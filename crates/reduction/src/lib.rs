@@ -31,6 +31,7 @@ mod stack;
 mod stress_modes;
 mod stress_recovery;
 mod teeth;
+mod turned_rows;
 mod window;
 
 pub use elastic::{ElasticGear, FullGear};

@@ -7,7 +7,7 @@ use fem::dense;
 use mesh::Origin;
 
 use super::{between::by_copy, bolts::BoltedGear, recovery::turned_by, seat::turned};
-use crate::{ReductionError, load::Load};
+use crate::{ReductionError, load::Load, turned_rows::turn_rows};
 
 impl BoltedGear {
     /// Openings of all bolts along their radii by 1 N of each, mm/N, and forces of the springs that do not open by it.
@@ -81,7 +81,7 @@ impl BoltedGear {
             for &(i, load) in &own.nodes {
                 local.as_mut().subrows_mut(3 * load, 3).copy_from(forces.subrows(3 * i, 3));
             }
-            crate::reducer::turn_rows(&mut local, -own.angle);
+            turn_rows(&mut local, -own.angle);
             moved += self.under_loads(own.copy, local.as_ref());
             on_loads.insert(own.copy, local);
         }

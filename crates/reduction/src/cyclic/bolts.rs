@@ -17,7 +17,7 @@ use crate::{
     ReductionError,
     bolt_shares::{BoltShares, springs},
     load::Load,
-    reducer::turn_rows,
+    turned_rows::turn_rows,
 };
 
 /// Freedoms under bolts up to which their matrices are dense: 2,000 take 32 MB and some seconds.

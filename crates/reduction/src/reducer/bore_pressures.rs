@@ -4,7 +4,7 @@ use faer::Mat;
 use mesh::{BoreCoupling, BoreGrid};
 
 use super::{GearReducer, Method};
-use crate::{ReductionError, Window, load::Load};
+use crate::{ReductionError, Window, load::Load, turned_rows::turn_rows};
 
 /// Forces (N) on nodes.
 pub(super) type NodalForces = Vec<(u32, [f64; 3])>;
@@ -83,18 +83,6 @@ impl GearReducer {
         match self.gear.bore_coupling() {
             BoreCoupling::Distributing => self.method(),
             coupling => Err(ReductionError::NoBorePressures { coupling: coupling.name() }),
-        }
-    }
-}
-
-/// Turns triples of rows by an angle about z, rad.
-pub(crate) fn turn_rows(matrix: &mut Mat<f64>, angle: f64) {
-    let (sin, cos) = angle.sin_cos();
-    for mut column in matrix.col_iter_mut() {
-        for i in (0..column.nrows()).step_by(3) {
-            let (x, y) = (column[i], column[i + 1]);
-            column[i] = cos * x - sin * y;
-            column[i + 1] = sin * x + cos * y;
         }
     }
 }

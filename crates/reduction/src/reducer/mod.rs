@@ -28,7 +28,6 @@ pub use bolts::{BoltCompliance, BoltsAndFlanks};
 pub use options::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 pub use parts::TablePart;
 
-pub(crate) use bore_pressures::turn_rows;
 pub(crate) use condense::{Method, Summary};
 
 /// A gear that can be reduced to any window of its teeth.

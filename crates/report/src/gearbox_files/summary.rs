@@ -342,7 +342,7 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 14] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 15] = [
     ("the summary of a gearbox", GearboxSummary::KEYS),
     ("shafts", ShaftSummary::KEYS),
     ("meshes, a gearbox", MeshSummary::KEYS),
@@ -350,6 +350,7 @@ pub(super) const OBJECTS: [(&str, &[Key]); 14] = [
     ("planets", PlanetsSummary::KEYS),
     ("bearings, a gearbox", BearingSummary::KEYS),
     ("rolling", RollingSummary::KEYS),
+    ("bolts", BoltsSummary::KEYS),
     ("life", LifeSummary::KEYS),
     ("outputs, a gearbox", OutputSummary::KEYS),
     ("vibration", VibrationSummary::KEYS),
