@@ -209,6 +209,29 @@ fn bolts_beside_a_sector_are_those_of_the_whole_gear() {
     }
 }
 
+/// What the sector does not give comes from the whole gear: its lowest frequency and stress are those of a gear in one factor.
+#[test]
+fn what_a_sector_on_bolts_does_not_give_is_the_whole_gears() {
+    let mesh = bolted(meshed(&ring(), 2, Extent::Whole), [0.0; 3], BOLTS);
+    let whole = GearReducer::general(mesh.clone(), Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
+    let own = reduced(mesh, 2);
+    assert_eq!(own.way(), ReductionWay::SectorAndBolts);
+    let [a, b] = [&own, &whole].map(|gear| gear.lowest_elastic_hz().unwrap());
+    assert!((a / b - 1.0).abs() < 1e-9, "{a} and {b} Hz");
+    for first in [0, 11] {
+        let stress = [&own, &whole].map(|gear| {
+            let window = gear.window(first).unwrap();
+            let node = window.reduced.nodes[3];
+            let forces: Vec<f64> = (0..window.reduced.coordinates()).map(|i| (0.7 * i as f64).sin()).collect();
+            gear.stress_modes(&window, &[node]).unwrap().stress_under(&forces).unwrap()[0]
+        });
+        let most = stress[1].iter().fold(0.0, |most: f64, s| most.max(s.abs()));
+        let off = (0..6).map(|k| (stress[0][k] - stress[1][k]).abs()).fold(0.0, f64::max) / most;
+        println!("{a} Hz, {b} Hz; {stress:?} MPa");
+        assert!(off < 1e-8, "stress off by {off:e}");
+    }
+}
+
 /// Bolts hold a gear against what loads it: their forces and those on its flanks are in balance.
 #[test]
 fn forces_of_bolts_balance_those_on_the_flanks() {
