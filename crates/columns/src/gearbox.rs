@@ -9,7 +9,7 @@ use analysis::{
 };
 use answer::{OfRow, RowColumn, RowStore, Table, TableError, Values};
 use gearbox::{
-    BearingState, GearboxPosition, ShaftLine, line_load, load_shares,
+    BearingState, BoltForce, GearboxPosition, ShaftLine, line_load, load_shares,
     motion::{GearboxInstant, MeshInstant},
     rolling_bearing::RollingState,
 };
@@ -121,6 +121,38 @@ pub fn shafts(file: &Gearbox, positions: &[GearboxPosition]) -> Table {
         .numbers("turn_x_urad", "rotation about x", displacement(3, 1e6))
         .numbers("turn_y_urad", "rotation about y", displacement(4, 1e6))
         .numbers("turn_z_urad", "rotation about z", displacement(5, 1e6))
+}
+
+/// `bolts`: one row a bolt at a position.
+pub fn bolts(file: &Gearbox, positions: &[GearboxPosition]) -> Table {
+    let rows = || {
+        positions.iter().flat_map(|position| {
+            let of_gear = move |(i, bolts): (usize, &'_ Vec<BoltForce>)| (0..bolts.len()).map(move |k| (i, k));
+            position.bolts.iter().enumerate().flat_map(of_gear).map(move |(i, k)| (position, i, k))
+        })
+    };
+    let force = |of: fn(&BoltForce) -> f64| rows().map(move |(p, i, k)| of(&p.bolts[i][k])).collect::<Vec<f64>>();
+    let meaning = "force that presses the gear along the radius, with `preload_n`; below 0 the bolt pulls, of bolts that open 0 where it has lifted off";
+    Table::new("bolts")
+        .numbers("input_angle_deg", "angle of the input", rows().map(|(p, _, _)| p.input_angle.to_degrees()))
+        .texts("gear", "name of the gear", rows().map(|(_, i, _)| file.gears[i].name.as_str()))
+        .numbers(
+            "bolt",
+            "number of the bolt, counter-clockwise from the first one, 1",
+            rows().map(|row| row.2 as f64 + 1.0),
+        )
+        .numbers("radial_n", meaning, force(|own| own.radial))
+        .numbers(
+            "tangential_n",
+            "force on the gear along the circumference, counter-clockwise",
+            force(|own| own.tangential),
+        )
+        .numbers("axial_n", "force on the gear along z", force(|own| own.axial))
+        .numbers(
+            "is_open",
+            "1 where a bolt that opens has lifted off, else 0",
+            force(|own| f64::from(u8::from(own.open))),
+        )
 }
 
 /// `line_load`: the largest line load that each height of a face sees.

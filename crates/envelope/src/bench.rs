@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use ale::{Station, ToothWindow};
 use analysis::{
-    AnalysisError, NoObserver, SinkResult, StaticAnalysis, StaticResult, StaticSink,
+    AnalysisError, Context, Ending, NoObserver, SinkResult, StaticAnalysis, StaticResult, StaticSink,
+    gearbox::GearboxResult,
     lumped::{LumpedAnalysis, LumpedResult},
     motion::{MotionAnalysis, MotionResult},
-    static_certificate,
+    solve, static_certificate,
 };
 use geometry::Sense;
 use ltca::{StaticModel, StaticPosition};
-use scene::{Scene, SceneError, Setting};
+use scene::{Scene, SceneError, Setting, gearbox::Gearbox};
 
 use crate::EnvelopeError;
 
@@ -44,6 +45,16 @@ impl Bench {
         let scene = self.scene(settings)?;
         let result = StaticAnalysis::new(&scene).solve()?;
         analysis::certificate::verdict(&static_certificate(&scene, &result.history.positions), &scene)?;
+        Ok(result)
+    }
+
+    /// A gearbox, solved at rest, its certificate held.
+    pub(crate) fn gearbox_at_rest<S: AsRef<str>>(&self, settings: &[S]) -> Result<GearboxResult, AnalysisError> {
+        let settings = settings.iter().map(|s| Setting::parse(s.as_ref())).collect::<Result<Vec<_>, _>>()?;
+        let file = PathBuf::from(format!("scenes/envelope/{}.toml", self.file));
+        let gearbox = Gearbox::parse_with(self.scene, &file, &settings)?;
+        let result = solve(&gearbox, Context::new(&mut NoObserver)).and_then(Ending::finished)?;
+        result.verdict(&gearbox)?;
         Ok(result)
     }
 

@@ -1,6 +1,6 @@
 //! Meshes of gears that are in several of them: each hears through the gear's body what the others press. Theory (38a).
 
-use std::sync::Arc;
+use std::{any::Any, sync::Arc};
 
 use contact::{
     ContactError,
@@ -8,12 +8,14 @@ use contact::{
 };
 use faer::Mat;
 use ltca::StaticError;
+use mesh::Bolts;
 use nalgebra::{DVector, SMatrix, Vector3};
 use reduction::{ElasticGear, GearReducer, Window};
 
 use crate::{
     ExactMesh, GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Structure, Vector12,
     compliant_support::CompliantBearing,
+    opening_bolts::{BoltForce, BoltsOfGear},
     pressed_bore::{BoreFailure, BoreOfGear, SeenBy},
     rolling_bearing::RollingReply,
     train::at_mesh,
@@ -39,6 +41,8 @@ pub(crate) struct JoinedMeshes {
     gears: Vec<SharedGear>,
     /// Bores that rolling elements press.
     pub bores: Vec<BoreOfGear>,
+    /// Bolts of gears.
+    bolts: Vec<BoltsOfGear>,
     /// Directions of the meshes, rad.
     directions: Vec<f64>,
     contacts: JoinedContacts,
@@ -72,6 +76,8 @@ impl JoinedMeshes {
         supports: &[CompliantBearing],
     ) -> Vec<Self> {
         let exact: Vec<usize> = (0..meshes.len()).filter(|&i| elements[i].to_join().is_some()).collect();
+        let reduced_bolts: Vec<[Option<Bolts>; 2]> =
+            elements.iter_mut().map(|element| element.to_join().map_or([None; 2], bolts_of_mesh)).collect();
         let mut group: Vec<usize> = (0..meshes.len()).collect();
         let mut shared = Vec::new();
         for (&i, &j) in exact.iter().flat_map(|i| exact.iter().filter(move |j| *j > i).map(move |j| (i, j))) {
@@ -100,9 +106,10 @@ impl JoinedMeshes {
                 (!seen.is_empty()).then(|| BoreOfGear::new(at, seen))
             };
             let bores: Vec<BoreOfGear> = supports.iter().enumerate().filter_map(bore).collect();
+            let bolts = bolts_of((meshes, &own), &reduced_bolts);
             let directions = own.iter().map(|&mesh| meshing[mesh].direction).collect();
-            let joined = Self { meshes: own.clone(), gears, bores, directions, contacts: JoinedContacts::new() };
-            (!(joined.gears.is_empty() && joined.bores.is_empty())).then_some(joined)
+            let joined = Self { meshes: own, gears, bores, bolts, directions, contacts: JoinedContacts::new() };
+            (!(joined.gears.is_empty() && joined.bores.is_empty() && joined.bolts.is_empty())).then_some(joined)
         };
         (0..meshes.len()).filter_map(of_group).collect()
     }
@@ -115,7 +122,7 @@ impl JoinedMeshes {
         (displacements, y): (&[Vector12], &DVector<f64>),
         found: JoinedForces<'_>,
     ) -> Result<(), GearboxError> {
-        let Self { meshes: own, gears, bores, directions, contacts } = self;
+        let Self { meshes: own, gears, bores, bolts, directions, contacts } = self;
         let joined = elements.iter_mut().enumerate().filter(|(i, _)| own.binary_search(i).is_ok());
         let mut exact: Vec<&mut ExactMesh> =
             joined.filter_map(|(_, element)| element.to_join()?.downcast_mut()).collect();
@@ -128,6 +135,10 @@ impl JoinedMeshes {
             stand(bore, (&exact, directions), (structure, supports))
                 .map_err(|source| at_mesh(&meshes[own[bore.meshes[0].0]], source))?;
         }
+        for own_bolts in bolts.iter_mut() {
+            stand_on(own_bolts, (&exact, directions))
+                .map_err(|source| at_mesh(&meshes[own[own_bolts.meshes[0].0]], source))?;
+        }
         let common: Vec<CommonGear<'_>> = gears.iter().filter_map(SharedGear::common).collect();
         let poses: Vec<_> = exact.iter().map(|mesh| mesh.poses).collect();
         let bearings: Vec<usize> = bores.iter().map(|bore| bore.bearing).collect();
@@ -137,7 +148,10 @@ impl JoinedMeshes {
             let moved = supports[bore.bearing].seen(y);
             bore.pressed(&moved, law)
         });
-        let mut pressing: Vec<_> = pressing.collect();
+        let of_bolts: Vec<_> = bolts.iter().map(BoltsOfGear::law).collect();
+        let opening = bolts.iter_mut().zip(&of_bolts).filter_map(|(own, law)| own.pressed(law));
+        // Bolts come after bearings, which have numbers of their own.
+        let mut pressing: Vec<_> = pressing.chain(opening).collect();
         let mut all: Vec<_> = exact.iter_mut().map(|mesh| &mut mesh.contact).collect();
         let solved = contacts.evaluate(&mut all, &poses, &common, &mut pressing);
         drop(pressing);
@@ -170,6 +184,63 @@ impl JoinedMeshes {
     }
 }
 
+impl JoinedMeshes {
+    /// Forces of the bolts of all gears on these after an evaluation, by disc.
+    pub fn bolt_forces(&self, elements: &mut [Box<dyn MeshElement>]) -> Vec<(usize, Vec<BoltForce>)> {
+        let joined = elements.iter_mut().enumerate().filter(|(i, _)| self.meshes.binary_search(i).is_ok());
+        let exact: Vec<&mut ExactMesh> = joined.filter_map(|(_, element)| element.to_join()?.downcast_mut()).collect();
+        let of_gear = |bolts: &BoltsOfGear| {
+            let on = |&(k, end): &(usize, usize)| {
+                let mesh = &exact[k];
+                mesh.contact.boundary_forces(&mesh.poses).map(|[a, b]| if end == 0 { a } else { b }).unwrap_or_default()
+            };
+            (bolts.disc, bolts.carried(&bolts.meshes.iter().map(on).collect::<Vec<_>>()))
+        };
+        self.bolts.iter().map(of_gear).collect()
+    }
+}
+
+/// Bolts of both gears of an exact mesh.
+fn bolts_of_mesh(element: &mut dyn Any) -> [Option<Bolts>; 2] {
+    let bolts = |gear: &ElasticGear| match gear {
+        ElasticGear::Reduced(reducer) => reducer.bolts(),
+        ElasticGear::Full(_) => None,
+    };
+    element.downcast_ref::<ExactMesh>().map_or([None; 2], |mesh| [0, 1].map(|end| bolts(&mesh.gears[end])))
+}
+
+/// Bolts of all gears of some meshes.
+fn bolts_of((meshes, own): (&[GearMesh], &[usize]), reduced: &[[Option<Bolts>; 2]]) -> Vec<BoltsOfGear> {
+    let mut all: Vec<BoltsOfGear> = Vec::new();
+    for (k, end) in (0..own.len()).flat_map(|k| [0, 1].map(move |end| (k, end))) {
+        let (disc, Some(bolts)) = (meshes[own[k]].discs[end], reduced[own[k]][end]) else { continue };
+        match all.iter_mut().find(|known| known.disc == disc) {
+            Some(known) => known.meshes.push((k, end)),
+            None => all.push(BoltsOfGear::new(disc, vec![(k, end)], bolts)),
+        }
+    }
+    all
+}
+
+/// Makes what is known of bolts where their gear stands.
+fn stand_on(bolts: &mut BoltsOfGear, (exact, directions): (&[&mut ExactMesh], &[f64])) -> Result<(), GearboxError> {
+    let end = bolts.meshes[0].1;
+    let failed = |source| {
+        let gear = ["pinion", "wheel"][end];
+        GearboxError::from(StaticError::from(ContactError::Reduction { gear, source }))
+    };
+    let seen: Option<Vec<SeenBy<'_>>> = bolts.meshes.iter().map(|own| seen_by((exact, directions), own)).collect();
+    let seen = seen.ok_or_else(|| failed(reduction::ReductionError::OtherReduction))?;
+    bolts.stand(&seen).map_err(failed)
+}
+
+/// A gear as one of its meshes sees it.
+fn seen_by<'a>((exact, directions): (&'a [&mut ExactMesh], &[f64]), &(k, end): &(usize, usize)) -> Option<SeenBy<'a>> {
+    let (reducer, window) = reduced(exact[k], end)?;
+    let cyclic = if reducer.is_cyclic() { 0.0 } else { reducer.frame_angle(window) };
+    Some(SeenBy { reducer, window, angle: directions[k] + exact[k].frame_angle(end) - cyclic })
+}
+
 /// Makes what is known of a bore where its gear stands.
 fn stand(
     bore: &mut BoreOfGear,
@@ -187,12 +258,7 @@ fn stand(
         }
     };
     let end = bore.meshes[0].1;
-    let see = |&(k, end): &(usize, usize)| {
-        let (reducer, window) = reduced(&*exact[k], end)?;
-        let cyclic = if reducer.is_cyclic() { 0.0 } else { reducer.frame_angle(window) };
-        Some(SeenBy { reducer, window, angle: directions[k] + exact[k].frame_angle(end) - cyclic })
-    };
-    let seen: Option<Vec<SeenBy<'_>>> = bore.meshes.iter().map(see).collect();
+    let seen: Option<Vec<SeenBy<'_>>> = bore.meshes.iter().map(|own| seen_by((exact, directions), own)).collect();
     let seen = seen.ok_or_else(|| failed(end, BoreFailure::Reduction(reduction::ReductionError::OtherReduction)))?;
     bore.stand(support, &seen).map_err(|failure| failed(end, failure))
 }

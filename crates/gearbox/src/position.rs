@@ -5,7 +5,7 @@ use ltca::FilletField;
 use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::{
-    GearboxPosition, MeshForces, MeshState, StaticGearbox, Vector12,
+    BoltForce, GearboxPosition, MeshForces, MeshState, StaticGearbox, Vector12,
     balance::{Balance, balances},
     equilibrium::Converged,
     rolling_bearing::{RollingReply, RollingState},
@@ -22,6 +22,8 @@ pub(crate) struct Solved {
     pub pressed: Vec<RollingReply>,
     /// Forces of the laminae of each bearing that presses the bore of a gear, N.
     pub laminae: Vec<Vec<f64>>,
+    /// Forces of the bolts of each disc.
+    pub bolts: Vec<Vec<BoltForce>>,
     /// Forces on the gears, common axes.
     pub forces: Vec<Vector12>,
     pub slices: Vec<Vec<SliceResult>>,
@@ -30,7 +32,7 @@ pub(crate) struct Solved {
 
 /// Everything that is known of it.
 pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPosition {
-    let Solved { angle, cycles, found, replies, pressed, laminae, forces, slices, roots } = solved;
+    let Solved { angle, cycles, found, replies, pressed, laminae, bolts, forces, slices, roots } = solved;
     let seats = &gearbox.seats.basis * &found.displacements;
     let mut all = gearbox.seats.all(&seats);
     for (shaft, _) in gearbox.held.iter().enumerate().filter(|(_, held)| **held) {
@@ -85,6 +87,7 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
         bearings,
         rolling,
         laminae,
+        bolts,
         meshes,
         input_torque,
         held_reactions: held,

@@ -178,6 +178,7 @@ impl BoreOfGear {
             compliance: placed.compliance.as_ref(),
             shares: &placed.shares,
             flanks: flanks.collect(),
+            preload: 0.0,
             forces: &mut self.forces,
         })
     }

@@ -6,7 +6,7 @@ use ltca::FilletField;
 use nalgebra::DVector;
 
 use crate::{
-    GearboxError, GearboxPosition, MeshForces, StaticGearbox, Vector12,
+    BoltForce, GearboxError, GearboxPosition, MeshForces, StaticGearbox, Vector12,
     joined_meshes::AcrossMeshes,
     position::{Solved, position},
     rolling_bearing::RollingReply,
@@ -50,8 +50,8 @@ impl StaticGearbox {
         self.follow((&mut replies, &across, &mut pressed), (&mut slices, &mut roots), &moved);
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
-        let laminae = self.laminae();
-        Ok(position(self, Solved { angle, cycles, found, replies, pressed, laminae, forces, slices, roots }))
+        let (laminae, bolts) = (self.laminae(), self.bolt_forces());
+        Ok(position(self, Solved { angle, cycles, found, replies, pressed, laminae, bolts, forces, slices, roots }))
     }
 
     /// Forces of the laminae of each bearing that presses the bore of a gear, N; none of the others.
@@ -59,6 +59,16 @@ impl StaticGearbox {
         let mut all = vec![Vec::new(); self.assembly.structure().bearings.len()];
         for bore in self.joined.iter().flat_map(|joined| &joined.bores) {
             all[self.compliant_support[bore.bearing].bearing].clone_from(&bore.forces);
+        }
+        all
+    }
+
+    /// Forces of the bolts of each disc.
+    fn bolt_forces(&mut self) -> Vec<Vec<BoltForce>> {
+        let Self { joined, elements, assembly, .. } = self;
+        let mut all = vec![Vec::new(); assembly.structure().discs.len()];
+        for (disc, forces) in joined.iter().flat_map(|joined| joined.bolt_forces(elements)) {
+            all[disc] = forces;
         }
         all
     }

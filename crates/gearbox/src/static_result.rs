@@ -96,6 +96,8 @@ pub struct GearboxPosition {
     /// Forces of the laminae of those that press the bore of a gear, roller by roller of each row in turn, N
     /// ([`crate::rolling_bearing::RollingBearing::zone_of`]); none of the others.
     pub laminae: Vec<Vec<f64>>,
+    /// Forces of the bolts of each disc on its gear; none of discs without bolts, and of meshes that are not exact or not joined.
+    pub bolts: Vec<Vec<crate::BoltForce>>,
     /// Meshes in their order.
     pub meshes: Vec<MeshState>,
     /// Torque that holds the input, N mm about +z.

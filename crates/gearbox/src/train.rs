@@ -52,6 +52,7 @@ pub struct Train {
     middles: Vec<[f64; 2]>,
     ratios: Vec<f64>,
     in_space: Vec<f64>,
+    counted: Vec<[f64; 2]>,
 }
 
 /// Relative difference of distances, ratios and angles that is round-off of their input.
@@ -128,17 +129,34 @@ impl Train {
         let in_space =
             ratios.iter().enumerate().map(|(i, r)| if structure.fixed == Some(i) { 0.0 } else { r + carrier });
         let in_space = in_space.collect();
+        let marks = walk.marks.clone();
         // Where every shaft is driven, every mesh has been reached.
         let meshing: Vec<Meshing> = walk.found.into_iter().flatten().collect();
         let middle =
             |(mesh, own): (&GearMesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
         let middles = meshes.iter().zip(&meshing).map(middle).collect();
-        Ok(Self { meshes: meshing, middles, ratios, in_space })
+        let counted = |(mesh, own): (&GearMesh, &Meshing)| {
+            let angles = own.gear_angles(&mesh.pair);
+            let gears = [&mesh.pair.pinion, &mesh.pair.wheel];
+            std::array::from_fn(|g| {
+                let (disc, pitch) = (mesh.discs[g], TAU / f64::from(gears[g].teeth()));
+                let off = angles[g] - (marks[structure.discs[disc].shaft] + keys[disc]);
+                (off / pitch).round() * pitch
+            })
+        };
+        let counted = meshes.iter().zip(&meshing).map(counted).collect();
+        Ok(Self { meshes: meshing, middles, ratios, in_space, counted })
     }
 
     /// Running of each mesh, in their order.
     pub fn meshing(&self) -> &[Meshing] {
         &self.meshes
+    }
+
+    /// Angle from tooth 0 of gear 1 and of gear 2 to the tooth from which a mesh counts theirs, rad, whole pitches: in the
+    /// meshes that close a loop teeth are counted from another one on.
+    pub fn counted_from(&self, mesh: usize) -> [f64; 2] {
+        self.counted[mesh]
     }
 
     /// Rotations of each shaft in the frame of the carrier per rotation of the input shaft, negative if opposite; 0 for

@@ -11,6 +11,8 @@ use crate::{Face, FaceKind, Mesh, MeshError, SpringPoint, gauss_legendre, spring
 /// ```text
 /// k = K/(w h)     N/mm^3 on an arc w by a height h about each place; 0 elsewhere
 /// ```
+/// Bolts that open have no such spring along the radius: each presses there with one force N, spread evenly, and does not pull,
+/// theory (38c).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bolts {
     /// Number.
@@ -23,6 +25,23 @@ pub struct Bolts {
     pub heights: Option<[f64; 2]>,
     /// Radial, tangential and axial stiffness K of each, N/mm.
     pub stiffness: [f64; 3],
+    /// Force (N) that presses each along its radius before any load, where each opens; `None`: none opens.
+    pub opens_beyond: Option<f64>,
+}
+
+/// A point of a bolt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoltPoint {
+    /// Number of the bolt, from 0.
+    pub bolt: usize,
+    /// Copy of the mesh that has the face: the mesh turned by so many pitches.
+    pub copy: u32,
+    /// Share of the point in the bolt's rectangle; of all points of a bolt the sum is 1.
+    pub share: f64,
+    /// Place, mm, in the frame of the copy.
+    pub position: Vector3<f64>,
+    /// Face of the mesh, shape functions, and stiffness of the springs that do not open, in the frame of the copy.
+    pub spring: SpringPoint,
 }
 
 /// Points of Gauss's rule on a stretch.
@@ -35,8 +54,23 @@ const STEPS: usize = 20;
 const EDGE: f64 = 1e-9;
 
 impl Bolts {
-    /// Springs of all bolts on the faces of a bore.
-    pub(crate) fn springs(&self, mesh: &Mesh, faces: &[Face]) -> Result<Vec<SpringPoint>, MeshError> {
+    /// Springs along radius, circumference and axis that do not open, N/mm.
+    pub(crate) fn closed_stiffness(&self) -> [f64; 3] {
+        let [radial, tangential, axial] = self.stiffness;
+        [if self.opens_beyond.is_some() { 0.0 } else { radial }, tangential, axial]
+    }
+
+    /// Points of all bolts on the faces of a bore, bolt by bolt. The mesh has some of the faces of the gear, which its `copies`
+    /// have all together, each turned by `pitch` (rad) from the one before.
+    ///
+    /// # Errors
+    /// [`MeshError::BoltOffBore`] if a bolt reaches beyond the faces; [`MeshError::BoltsOverlap`].
+    pub fn points(
+        &self,
+        mesh: &Mesh,
+        faces: &[Face],
+        (copies, pitch): (u32, f64),
+    ) -> Result<Vec<BoltPoint>, MeshError> {
         let nodes = || faces.iter().flat_map(Face::nodes).map(|&n| mesh.nodes[n as usize]);
         let count = nodes().count().max(1) as f64;
         let radius = nodes().map(|[x, y, _]| x.hypot(y)).sum::<f64>() / count;
@@ -53,16 +87,25 @@ impl Bolts {
         let heights = stretched([from, to], side);
         let arcs = stretched([-0.5 * self.width, 0.5 * self.width], side);
         let mut all = Vec::with_capacity(self.count as usize * arcs.len() * heights.len());
+        // The copy of the last point is tried first: of a helical mesh any may have the next one.
+        let mut last = 0;
         for bolt in 0..self.count {
             let middle = self.first_angle + TAU * f64::from(bolt) / f64::from(self.count);
             for (&(arc, wide), &(z, high)) in arcs.iter().flat_map(|a| heights.iter().map(move |h| (a, h))) {
                 let angle = middle + arc / radius;
-                let found = faces.iter().find_map(|face| Some((*face, at(mesh, face, angle, z)?)));
-                let Some((face, (shape, x))) = found else {
+                let on = |copy: u32| {
+                    let own = angle - pitch * f64::from(copy);
+                    faces.iter().find_map(|face| Some((copy, *face, at(mesh, face, own, z)?)))
+                };
+                let found = (0..copies).find_map(|k| on((last + k) % copies));
+                let Some((copy, face, (shape, position))) = found else {
                     return Err(MeshError::BoltOffBore { bolt, angle_deg: angle.to_degrees(), z_mm: z });
                 };
-                let stiffness = wide * high * along_cylinder(self.stiffness, x);
-                all.push(SpringPoint { face, shape, stiffness });
+                last = copy;
+                let share = wide * high;
+                let stiffness = share * along_cylinder(self.closed_stiffness(), position);
+                let spring = SpringPoint { face, shape, stiffness };
+                all.push(BoltPoint { bolt: bolt as usize, copy, share, position, spring });
             }
         }
         Ok(all)

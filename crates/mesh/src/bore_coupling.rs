@@ -1,6 +1,6 @@
 //! How a gear's bore follows its shaft.
 
-use crate::Foundation;
+use crate::{Bolts, Foundation};
 
 /// Coupling of the bore to the shaft; the first two have the names that finite-element programs use.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -43,5 +43,27 @@ impl BoreCoupling {
             Self::Kinematic | Self::Distributing => None,
             Self::Elastic(foundation) => Some(foundation),
         }
+    }
+
+    /// Bolts, and what holds all teeth alike beside them: springs all around, or the means of a bore that nothing else
+    /// holds, which then are free to move. `None` without bolts, and where springs all around hold some motions and leave
+    /// others.
+    pub fn beside_bolts(self) -> Option<(Self, Bolts)> {
+        let foundation = self.foundation()?;
+        let (around, bolts) = (foundation.all_around(), foundation.bolts()?);
+        if around.iter().all(|k| *k == 0.0) {
+            return Some((Self::Distributing, bolts));
+        }
+        Foundation::new(around, None).ok().map(|springs| (Self::Elastic(springs), bolts))
+    }
+
+    /// This coupling of a gear whose teeth are counted from one on that stands this angle (rad) further: its bolts stand as far
+    /// back.
+    pub fn counted_from(self, angle: f64) -> Self {
+        let Some((foundation, bolts)) = self.foundation().and_then(|own| Some((own, own.bolts()?))) else {
+            return self;
+        };
+        let bolts = Bolts { first_angle: bolts.first_angle - angle, ..bolts };
+        Foundation::new(foundation.all_around(), Some(bolts)).map_or(self, Self::Elastic)
     }
 }

@@ -128,6 +128,15 @@ pub enum MeshError {
         /// The stiffness, N/mm^3.
         found: f64,
     },
+    /// A force that is negative or not finite.
+    #[error("a preload of {found} N")]
+    BadPreload {
+        /// The force, N.
+        found: f64,
+    },
+    /// Bolts that open without a stiffness.
+    #[error("bolts open along the radius and have no stiffness there")]
+    NothingOpens,
     /// An elastic foundation of the bore that leaves the gear a motion.
     #[error("the springs of the elastic bore let the gear {motion}: it has no {missing} stiffness")]
     FreeBore {
@@ -277,6 +286,8 @@ impl MeshError {
             Self::BoltsOverlap { .. } => "make them narrower or fewer; `width_mm` is the arc of each",
             Self::BoltOffBore { .. } => "set `over_mm` of the bolts to a part of what is held, and mesh the whole bore",
             Self::BadFoundation { .. } => "leave the key out where nothing holds",
+            Self::BadPreload { .. } => "state a preload of 0 or more",
+            Self::NothingOpens => "state `radial_n_per_mm` of the bolts, or leave `opens` out",
             Self::FreeBore { missing: "axial", .. } => {
                 "state `axial_n_per_mm3` too; without axial forces any small stiffness gives the same answer"
             }

@@ -32,11 +32,20 @@ impl Foundation {
     ///
     /// # Errors
     /// [`MeshError::FreeBore`] if the gear could turn or move along its axis; [`MeshError::FewBolts`] if only one or two
-    /// places hold it so; [`MeshError::BadFoundation`] for a stiffness that is negative or not finite.
+    /// places hold it so; [`MeshError::BadFoundation`] for a stiffness that is negative or not finite, [`MeshError::BadPreload`]
+    /// for such a force; [`MeshError::NothingOpens`] for bolts that open and have no stiffness along the radius.
     pub fn new(all_around: [f64; 3], bolts: Option<Bolts>) -> Result<Self, MeshError> {
         let at_places = bolts.map_or([0.0; 3], |bolts| bolts.stiffness);
         if let Some(&found) = all_around.iter().chain(&at_places).find(|k| !k.is_finite() || **k < 0.0) {
             return Err(MeshError::BadFoundation { found });
+        }
+        if let Some((preload, bolts)) = bolts.and_then(|bolts| Some((bolts.opens_beyond?, bolts))) {
+            if !preload.is_finite() || preload < 0.0 {
+                return Err(MeshError::BadPreload { found: preload });
+            }
+            if bolts.stiffness[0] == 0.0 {
+                return Err(MeshError::NothingOpens);
+            }
         }
         let holds = |axis: usize| all_around[axis] + at_places[axis] > 0.0;
         match (holds(1), holds(2)) {
@@ -58,7 +67,17 @@ impl Foundation {
         self.bolts.is_none()
     }
 
-    /// The springs under some faces.
+    /// Stiffness all around, N/mm^3.
+    pub fn all_around(&self) -> [f64; 3] {
+        self.all_around
+    }
+
+    /// The bolts.
+    pub fn bolts(&self) -> Option<Bolts> {
+        self.bolts
+    }
+
+    /// The springs under some faces of a gear; of bolts that open those that do not.
     ///
     /// # Errors
     /// [`MeshError::BoltOffBore`] if a bolt reaches beyond the faces.
@@ -75,7 +94,7 @@ impl Foundation {
             }
         }
         if let Some(bolts) = self.bolts {
-            all.extend(bolts.springs(mesh, faces)?);
+            all.extend(bolts.points(mesh, faces, (1, 0.0))?.into_iter().map(|point| point.spring));
         }
         Ok(all)
     }

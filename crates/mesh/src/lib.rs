@@ -29,7 +29,7 @@ mod spring_point;
 pub mod structured;
 mod tips;
 
-pub use bolts::Bolts;
+pub use bolts::{BoltPoint, Bolts};
 pub use bore::face_weights;
 pub use bore_coupling::BoreCoupling;
 pub use bore_grid::BoreGrid;

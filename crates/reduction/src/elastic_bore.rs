@@ -19,6 +19,11 @@ impl ElasticBore {
         Some(Self { foundation, faces: gear.bore().faces.clone() })
     }
 
+    /// The faces.
+    pub(crate) fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
     /// The faces that belong to elements of `part`, a part of the mesh with `number` for each node's number.
     pub(crate) fn in_part(self, part: &Mesh, number: impl Fn(u32) -> Option<u32>) -> Self {
         Self { foundation: self.foundation, faces: faces_in_part(&self.faces, part, number) }

@@ -116,6 +116,9 @@ pub enum ReductionError {
         /// Coupling of the bore.
         coupling: &'static str,
     },
+    /// What bolts do was asked of a gear without any.
+    #[error("the bore of the gear has no bolts")]
+    NoBolts,
     /// Normal modes of one gear were requested on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
@@ -177,6 +180,7 @@ impl ReductionError {
             Self::NoBorePressures { .. } => {
                 Some("give the bore of the gear `coupling = \"distributing\"` in the scenes of all its meshes".into())
             }
+            Self::NoBolts => Some("give the bore `coupling = \"elastic\"` and a table `bolts`".into()),
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }

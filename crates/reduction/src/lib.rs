@@ -11,6 +11,7 @@
 //! itself; any other gear is condensed with one sparse factor of the whole gear. Coordinates are three displacements
 //! per boundary node (x, y, z), mm, in the window's own frame.
 
+mod bolt_shares;
 mod cyclic;
 mod elastic;
 mod elastic_bore;
@@ -30,6 +31,7 @@ mod stack;
 mod stress_modes;
 mod stress_recovery;
 mod teeth;
+mod turned_rows;
 mod window;
 
 pub use elastic::{ElasticGear, FullGear};
@@ -44,7 +46,10 @@ pub use record::{
     RECORD_VERSION, RecordError, RecordKey, ReductionRecord, factor_bytes, read_factor, read_table, record_key,
     table_bytes,
 };
-pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay, TablePart};
+pub use reducer::{
+    BoltCompliance, BoltsAndFlanks, GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay,
+    TablePart,
+};
 pub use stack::LayerStack;
 pub use stress_modes::StressModes;
 pub use teeth::{PartFault, PartStore, ToothColumns};

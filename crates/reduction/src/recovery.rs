@@ -55,6 +55,9 @@ impl GearReducer {
         coordinates: impl Fn() -> Mat<f64>,
         forces: impl Fn() -> Result<Mat<f64>, ReductionError>,
     ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
+        if let Some(bolted) = self.bolted()? {
+            return bolted.expand(&self.loads(window)?, forces()?.as_ref(), nodes);
+        }
         match self.method()? {
             Method::Cyclic(cyclic) => cyclic.expand(forces()?.as_ref(), window.shift, nodes),
             Method::General(general, turn) => {

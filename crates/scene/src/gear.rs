@@ -2,7 +2,10 @@
 
 use mesh::{Bolts, FaceResolution, Foundation, MeshError};
 
-use crate::schema::{BoreScene, GearScene, MisalignmentScene, PairScene};
+use crate::{
+    Scene,
+    schema::{BoreScene, GearScene, MisalignmentScene, PairScene},
+};
 
 impl BoreScene {
     /// Whether the whole bore is rigid.
@@ -21,8 +24,16 @@ impl BoreScene {
             width: bolts.width_mm,
             heights: bolts.over_mm,
             stiffness: [bolts.radial_n_per_mm, bolts.tangential_n_per_mm, bolts.axial_n_per_mm],
+            opens_beyond: bolts.opens.then_some(bolts.preload_n),
         });
         Foundation::new([self.radial_n_per_mm3, self.tangential_n_per_mm3, self.axial_n_per_mm3], bolts)
+    }
+}
+
+impl Scene {
+    /// Whether a gear stands on bolts that open.
+    pub fn has_opening_bolts(&self) -> bool {
+        self.gears().iter().any(|gear| gear.bore.bolts.is_some_and(|bolts| bolts.opens))
     }
 }
 

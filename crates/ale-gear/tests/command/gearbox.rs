@@ -93,6 +93,7 @@ fn every_key_is_in_a_scene_that_runs() {
         "engine.toml",
         "resonance_curve.toml",
         "planet_in_ring.toml",
+        "ring_on_bolts.toml",
         "idler.toml",
         "idler_on_rollers.toml",
         "double_helical.toml",

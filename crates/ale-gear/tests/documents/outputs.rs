@@ -146,6 +146,8 @@ fn every_kind() -> Scratch {
     run(&["run", &planets, "--set", "analysis.positions_per_cycle=1", "--out", "out-planets"]);
     let idler = repository().join("scenes/gearbox/idler.toml").display().to_string();
     run(&["run", &idler, "--set", "analysis.positions_per_cycle=1", "--out", "out-idler"]);
+    let bolts = repository().join("scenes/gearbox/ring_on_bolts.toml").display().to_string();
+    run(&["run", &bolts, "--set", "analysis.positions_per_cycle=1", "--out", "out-bolts"]);
     let ring = "[pinion]\nteeth = 36\nhelix_angle_deg = 0.0\n[wheel]\nteeth = -93\ntip_diameter_mm = -182.5\n[pair]\n\
                 normal_module_mm = 2.0\nface_width_mm = 15.0\n[operation]\ntorque_nm = 100.0\n[analysis]\npositions_per_cycle = 2\n";
     std::fs::write(scratch.path().join("ring.toml"), ring).unwrap();

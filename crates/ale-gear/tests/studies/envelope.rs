@@ -27,7 +27,7 @@ fn words_of_the_envelope_are_checked() {
     let run = scratch.ale_gear(["envelope", "--only", "F36", "--out", "out"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("`--only F36`: there is no such case"), "{}", run.stderr);
-    assert!(run.stderr.contains("F1 .. F43, or a map: a .. g"), "{}", run.stderr);
+    assert!(run.stderr.contains("F1 .. F46, or a map: a .. g"), "{}", run.stderr);
     assert_eq!(scratch.names(), [""; 0]);
     // Before any case is looked at.
     let scratch = scratch.file("page.md", "no marks\n");

@@ -43,13 +43,19 @@ pub(super) fn mesh(own: &GearboxMesh, scene: &Scene) -> Result<GearMesh, Analysi
 
 /// The scenes of all meshes as they run: driver and rotation, and slices where these are to be settled.
 pub(super) fn running(file: &Gearbox, train: &Train, slices: bool) -> Vec<Scene> {
-    let one = |(own, meshing): (&GearboxMesh, &Meshing)| {
+    let one = |(i, (own, meshing)): (usize, (&GearboxMesh, &Meshing))| {
         let mut scene = own.scene.clone();
+        // A mesh that closes a ring of gears counts their teeth from another one on, and bolts stay where they are.
+        let [pinion, wheel] = train.counted_from(i).map(f64::to_degrees);
+        let bolts = [(&mut scene.pinion.bore.bolts, pinion), (&mut scene.wheel.bore.bolts, wheel)];
+        for (bolts, counted_from) in bolts {
+            bolts.iter_mut().for_each(|bolts| bolts.first_angle_deg -= counted_from);
+        }
         (scene.operation.driver, scene.operation.rotation) = (meshing.driver, meshing.sense);
         // Slices follow the flanks that press.
         if slices { resolved_scene(&scene, false) } else { scene }
     };
-    file.meshes.iter().zip(train.meshing()).map(one).collect()
+    file.meshes.iter().zip(train.meshing()).enumerate().map(one).collect()
 }
 
 /// How far the wheel of each mesh stands off where its flanks touch, rad.

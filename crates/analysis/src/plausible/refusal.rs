@@ -3,7 +3,7 @@
 
 use answer::digits;
 use geometry::GearPair;
-use scene::{Scene, units::in_another_unit};
+use scene::{GearScene, Scene, units::in_another_unit};
 
 use super::{
     estimate::LoadEstimate,
@@ -32,11 +32,18 @@ pub struct Beyond {
     pub in_n_mm: bool,
 }
 
-/// Rejects a scene whose load deflects teeth by their own size, or whose micro-geometry leaves no tooth.
+/// Rejects a pair whose load deflects teeth by their own size, whose micro-geometry leaves no tooth, or with bolts that open.
 ///
 /// # Errors
 /// [`AnalysisError::Refused`] at the key that is probably wrong.
 pub fn refuse(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
+    let opens = |gear: &GearScene| gear.bore.bolts.is_some_and(|bolts| bolts.opens);
+    if let Some((whose, _)) = ["pinion", "wheel"].into_iter().zip(scene.gears()).find(|(_, gear)| opens(gear)) {
+        let what = format!("the bolts of the {whose} open, and a pair by itself has no such bolts");
+        let hint = "run a gearbox with this pair as a `[[mesh]]`, or leave `opens` and `preload_n` out";
+        return Err(AnalysisError::from(Refusal::input(what, hint))
+            .at(place_in(scene, &[&format!("{whose}.bore.bolts.opens")])));
+    }
     let Some(found) = no_tip(scene, pair).or_else(|| beyond(scene, pair)) else { return Ok(()) };
     let keys: Vec<&str> = found.keys.iter().map(String::as_str).collect();
     Err(AnalysisError::from(Refusal::input(found.said, found.hint)).at(place_in(scene, &keys)))

@@ -47,6 +47,8 @@ mod f37_lengths;
 mod f38_certificate_scale;
 mod f41_idle_checks;
 mod f43_internal_interference;
+mod f44_rigid_bore;
+mod f46_opening_bolts;
 
 /// All known failure modes, in the order of their numbers.
 pub const MODES: &[FailureMode] = &[
@@ -89,4 +91,6 @@ pub const MODES: &[FailureMode] = &[
     f38_certificate_scale::MODE,
     f41_idle_checks::MODE,
     f43_internal_interference::MODE,
+    f44_rigid_bore::MODE,
+    f46_opening_bolts::MODE,
 ];

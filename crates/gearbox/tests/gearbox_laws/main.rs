@@ -32,6 +32,7 @@ mod motion_order;
 mod motion_pair;
 mod motion_tooth_change;
 mod one_energy;
+mod opening_bolts;
 mod overhung;
 mod pair_course;
 mod pair_motion;

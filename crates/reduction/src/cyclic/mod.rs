@@ -16,6 +16,8 @@
 
 mod between;
 mod blocks;
+mod bolt_fields;
+mod bolts;
 mod chain;
 mod placement;
 mod pressures;
@@ -35,6 +37,7 @@ use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
 pub(crate) use blocks::{ToothBlocks, turned};
+pub(crate) use bolts::BoltedGear;
 use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use seat::SIX;

@@ -39,8 +39,7 @@ pub(super) fn placed(part: &SectorMesh, loads: &[Load]) -> Option<Placed> {
         }
         mine.sort_by_key(|&(node, _)| node);
         let key: Vec<u32> = mine.iter().filter(|(_, w)| w.abs() > SAME_LOAD).map(|&(node, _)| node).collect();
-        let weight = |load: &Load, node| load.iter().find(|p| p.0 == node).map_or(0.0, |p| p.1);
-        let same = |&&i: &&usize| mine.iter().all(|&(n, w)| (w - weight(&own[i], n)).abs() <= SAME_LOAD);
+        let same = |&&i: &&usize| is_same(&mine, &own[i]);
         let numbers = known.entry(key).or_default();
         let number = match numbers.iter().find(same) {
             Some(&number) => number,
@@ -53,6 +52,23 @@ pub(super) fn placed(part: &SectorMesh, loads: &[Load]) -> Option<Placed> {
         coordinates.push((copy, number));
     }
     Some(Placed { coordinates, own })
+}
+
+/// Whether a load is the same as another one, which may lack nodes of little weight.
+fn is_same(own: &Load, other: &Load) -> bool {
+    let weight = |node| other.iter().find(|p| p.0 == node).map_or(0.0, |p| p.1);
+    own.iter().all(|&(n, w)| (w - weight(n)).abs() <= SAME_LOAD)
+}
+
+/// Copy of each load, and its number among those `known` of one sector; `None` where it is none of them.
+pub(super) fn placed_among(part: &SectorMesh, loads: &[Load], known: &[Load]) -> Option<Vec<(u32, usize)>> {
+    let Placed { coordinates, own } = placed(part, loads)?;
+    let number = |load: &Load| {
+        let size = |load: &Load| load.iter().filter(|(_, w)| w.abs() > SAME_LOAD).count();
+        known.iter().position(|other| size(load) == size(other) && is_same(load, other))
+    };
+    let numbers = own.iter().map(number).collect::<Option<Vec<_>>>()?;
+    Some(coordinates.into_iter().map(|(copy, load)| (copy, numbers[load])).collect())
 }
 
 /// First and number of the neighbouring copies that hold all those given: what the widest gap leaves.

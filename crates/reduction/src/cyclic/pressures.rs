@@ -6,7 +6,7 @@ use mesh::BoreGrid;
 use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::{CyclicGear, SectorLoads, sector::UnderForces};
-use crate::{ReductionError, reducer::turn_rows};
+use crate::{ReductionError, turned_rows::turn_rows};
 
 /// Parts of a grid's pressures on one sector.
 struct OnSector {

@@ -173,6 +173,7 @@ impl CyclicGear {
     }
 }
 
-fn turned_by(turn: &[[f64; 3]; 3], u: [f64; 3]) -> [f64; 3] {
+/// A displacement in the frame of copy 0.
+pub(super) fn turned_by(turn: &[[f64; 3]; 3], u: [f64; 3]) -> [f64; 3] {
     turn.map(|[a, b, c]| a * u[0] + b * u[1] + c * u[2])
 }

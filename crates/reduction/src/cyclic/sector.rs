@@ -62,6 +62,7 @@ pub(super) struct SeatedSector {
 }
 
 /// What forces on all freedoms do, columns of them: q.
+#[derive(Debug)]
 pub(super) struct UnderForces {
     /// Displacement of all freedoms with kept nodes and cuts held, n x q.
     field: Mat<f64>,
@@ -73,6 +74,13 @@ pub(super) struct UnderForces {
     pub on_loads: Mat<f64>,
     /// Resultants R'f, 6 x q, of a sector with a seat.
     pub resultants: Mat<f64>,
+}
+
+impl UnderForces {
+    /// Displacement of all freedoms with kept nodes and cuts held, n x q.
+    pub(super) fn field(&self) -> MatRef<'_, f64> {
+        self.field.as_ref()
+    }
 }
 
 impl Sector {
@@ -314,6 +322,16 @@ impl Sector {
         let at = |row: usize| rows.partition_point(|&known| known < row);
         let entry = |i: usize, j: usize| loads[i].iter().map(|&(row, weight)| weight * field[(at(row), j)]).sum();
         Ok(Mat::from_fn(loads.len(), field.ncols(), entry))
+    }
+
+    /// As [`Sector::basis`], where other forces move the loads as well, by `moved` (3m x k, mm) with the cuts held.
+    pub(super) fn basis_with(&self, f: MatRef<'_, f64>, moved: MatRef<'_, f64>, ends: MatRef<'_, f64>) -> Mat<f64> {
+        let mut basis = self.basis(f, ends);
+        if self.kept > 0 {
+            let mut own = basis.as_mut().subrows_mut(0, moved.nrows());
+            own += moved;
+        }
+        basis
     }
 
     /// What a field is made of, from loads (3m x k, N) and ends (cuts, mm, and seat): displacements of kept nodes or loads,

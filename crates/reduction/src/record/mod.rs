@@ -23,7 +23,7 @@ pub use table::{read_table, table_bytes};
 /// Version of the file format, of the meaning of its numbers and of the code that computes them. The version is part of
 /// every key, and files of another version are not read. The test `a_record_of_another_code_has_another_version`
 /// detects when it must be raised.
-pub const RECORD_VERSION: u32 = 7;
+pub const RECORD_VERSION: u32 = 8;
 
 /// First bytes of a file.
 const MAGIC: [u8; 16] = *b"ale-gear reduced";

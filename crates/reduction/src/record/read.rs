@@ -211,7 +211,11 @@ impl<R: Read> Cursor<R> {
     }
 
     fn record(&mut self) -> Result<ReductionRecord, RecordError> {
-        let way = if self.byte(1)? == 1 { ReductionWay::CyclicSector } else { ReductionWay::General };
+        let way = match self.byte(2)? {
+            0 => ReductionWay::General,
+            1 => ReductionWay::CyclicSector,
+            _ => ReductionWay::SectorAndBolts,
+        };
         let cyclic = self.byte(1)? == 1;
         let free_count = u64::from_le_bytes(self.few()?) as usize;
         let summary = Summary { way, cyclic, free_count };

@@ -27,7 +27,11 @@ impl ReductionRecord {
 
     fn payload(&self, bytes: &mut Vec<u8>) {
         let Summary { way, cyclic, free_count } = self.summary;
-        bytes.push(u8::from(way == ReductionWay::CyclicSector));
+        bytes.push(match way {
+            ReductionWay::General => 0,
+            ReductionWay::CyclicSector => 1,
+            ReductionWay::SectorAndBolts => 2,
+        });
         bytes.push(u8::from(cyclic));
         bytes.extend((free_count as u64).to_le_bytes());
         bytes.extend(self.lowest_hz.unwrap_or(f64::NAN).to_le_bytes());

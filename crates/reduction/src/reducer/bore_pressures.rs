@@ -4,7 +4,10 @@ use faer::Mat;
 use mesh::{BoreCoupling, BoreGrid};
 
 use super::{GearReducer, Method};
-use crate::{ReductionError, Window, load::Load};
+use crate::{ReductionError, Window, load::Load, turned_rows::turn_rows};
+
+/// Forces (N) on nodes.
+pub(super) type NodalForces = Vec<(u32, [f64; 3])>;
 
 impl GearReducer {
     /// Grid of pressures over the bore of the whole gear, with at least so many stations around, equally many in each
@@ -55,6 +58,15 @@ impl GearReducer {
             Method::Cyclic(cyclic) => return cyclic.flanks_under_pressures(grid, window.shift),
             Method::General(general, _) => general,
         };
+        let own = self.coordinate_forces(window)?;
+        let mut found = general.between(&general.forces_on(&own), &general.forces_on(&grid.loads))?;
+        // From the gear's own frame into that of the matrices.
+        turn_rows(&mut found, -self.frame_angle(window));
+        Ok(found)
+    }
+
+    /// Unit forces on the coordinates of a window along the gear's own axes, on nodes of the mesh.
+    pub(super) fn coordinate_forces(&self, window: &Window) -> Result<Vec<NodalForces>, ReductionError> {
         let along = |load: &Load, k: usize| {
             let on = |&(node, share): &(u32, f64)| {
                 let mut force = [0.0; 3];
@@ -63,12 +75,7 @@ impl GearReducer {
             };
             load.iter().map(on).collect::<Vec<_>>()
         };
-        let own: Vec<Vec<(u32, [f64; 3])>> =
-            self.material_loads(window)?.iter().flat_map(|load| (0..3).map(move |k| along(load, k))).collect();
-        let mut found = general.between(&general.forces_on(&own), &general.forces_on(&grid.loads))?;
-        // From the gear's own frame into that of the matrices.
-        turn_rows(&mut found, -self.frame_angle(window));
-        Ok(found)
+        Ok(self.material_loads(window)?.iter().flat_map(|load| (0..3).map(move |k| along(load, k))).collect())
     }
 
     /// The method of a gear that is held by the means of its bore.
@@ -76,18 +83,6 @@ impl GearReducer {
         match self.gear.bore_coupling() {
             BoreCoupling::Distributing => self.method(),
             coupling => Err(ReductionError::NoBorePressures { coupling: coupling.name() }),
-        }
-    }
-}
-
-/// Turns triples of rows by an angle about z, rad.
-pub(crate) fn turn_rows(matrix: &mut Mat<f64>, angle: f64) {
-    let (sin, cos) = angle.sin_cos();
-    for mut column in matrix.col_iter_mut() {
-        for i in (0..column.nrows()).step_by(3) {
-            let (x, y) = (column[i], column[i + 1]);
-            column[i] = cos * x - sin * y;
-            column[i + 1] = sin * x + cos * y;
         }
     }
 }

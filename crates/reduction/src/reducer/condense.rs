@@ -8,7 +8,7 @@ use mesh::MeshedGear;
 use super::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 use crate::{
     ReducedGear, ReductionError,
-    cyclic::{CyclicGear, PitchTurn, SectorMesh},
+    cyclic::{BoltedGear, CyclicGear, PitchTurn, SectorMesh},
     general::{GeneralGear, Seen},
     load::{Coordinates, Load},
     window::Compliance,
@@ -34,6 +34,12 @@ impl Method {
             }
         }
     }
+}
+
+/// What a gear was condensed by.
+pub(super) enum Found {
+    Method(Method),
+    Bolted(Box<BoltedGear>),
 }
 
 /// What is known of the method without having it.
@@ -84,7 +90,21 @@ pub(super) fn condense<E: From<ReductionError>>(
     (general, watch): (bool, ReductionWatch<'_>),
     first_tooth: bool,
     coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
-) -> Result<(Condensed, Method), E> {
+) -> Result<(Condensed, Found), E> {
+    let has_bolts = gear.bore_coupling().beside_bolts().is_some();
+    let gear = if has_bolts && gear.is_periodic_sector() { gear.whole().map_err(ReductionError::from)? } else { gear };
+    if has_bolts && !general && gear.is_whole_gear() {
+        let coordinates = coordinates(&gear)?;
+        (watch.tell)(ReductionStage::Sector);
+        if let Some(bolted) = bolted_again(&gear, material, options, &coordinates, watch)? {
+            let first = Opened::new(&gear, &coordinates, options)?;
+            let compliance = Compliance::Whole(bolted.compliance(&first.loads)?);
+            let (way, cyclic, free_count) = (ReductionWay::SectorAndBolts, false, bolted.free_count());
+            let base = Arc::new(first.reduced(options, compliance));
+            let condensed = Condensed { gear, coordinates, summary: Summary { way, cyclic, free_count }, base };
+            return Ok((condensed, Found::Bolted(Box::new(bolted))));
+        }
+    }
     let ready = ready(gear, material, options, (general, watch), &|| None, coordinates)?;
     let Ready { gear, coordinates, first, method } = ready;
     let compliance = match &method {
@@ -100,7 +120,20 @@ pub(super) fn condense<E: From<ReductionError>>(
             Compliance::Whole(factor.compliance(seen, watch.wanted)?)
         }
     };
-    Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
+    let (condensed, method) = Condensed::new(gear, coordinates, options, first, (method, compliance));
+    Ok((condensed, Found::Method(method)))
+}
+
+/// The sector of a whole gear on bolts, under the loads of its first window.
+pub(super) fn bolted_again(
+    gear: &MeshedGear,
+    material: &Material,
+    options: &ReductionOptions,
+    coordinates: &Coordinates,
+    watch: ReductionWatch<'_>,
+) -> Result<Option<BoltedGear>, ReductionError> {
+    let first = Opened::new(gear, coordinates, options)?;
+    BoltedGear::new(gear, (material, &options.elements), &first.loads, coordinates.are_nodes(), watch.wanted)
 }
 
 /// The method of a gear that was condensed to its flank nodes before, without its compliance, which is known; `factor` is

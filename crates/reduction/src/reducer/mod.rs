@@ -1,6 +1,7 @@
 //! One condensation per gear, and any of its windows. Theory (11), (12).
 
 mod asked;
+mod bolts;
 mod bore_pressures;
 mod condense;
 mod options;
@@ -19,21 +20,21 @@ use fem::{DofMap, ElementOptions, Material};
 use geometry::Side;
 use mesh::{Face, MeshedGear};
 
-use crate::{FlankGrid, FlankGrids, LayerStack, ReducedGear, ReductionError, load::Coordinates};
+use crate::{FlankGrid, FlankGrids, LayerStack, ReducedGear, ReductionError, cyclic::BoltedGear, load::Coordinates};
 use asked::Asked;
-use condense::{Condensed, condense, method_again};
+use condense::{Condensed, Found, condense, method_again};
 
+pub use bolts::{BoltCompliance, BoltsAndFlanks};
 pub use options::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 pub use parts::TablePart;
 
-pub(crate) use bore_pressures::turn_rows;
 pub(crate) use condense::{Method, Summary};
 
 /// A gear that can be reduced to any window of its teeth.
 ///
 /// Coordinates are the flank nodes of the window's teeth, or weighted means of their displacements that belong to loads
 /// on coarse grids ([`FlankGrid`]). They are computed from one sector if the gear is cyclic to round-off, otherwise
-/// with one factor of the whole gear ([`ReductionWay`]). Both methods give the same matrices to 1e-9. A cyclic gear has
+/// with one factor of the whole gear ([`ReductionWay`]). All methods give the same matrices to 1e-9. A cyclic gear has
 /// the same matrices for all windows, in frames rotated by whole pitches. For any other gear, further windows select
 /// the columns of their teeth; these columns come from solves with the same factor and may be stored in a
 /// [`PartStore`](crate::PartStore).
@@ -54,6 +55,8 @@ pub struct GearReducer {
     coordinates: Coordinates,
     summary: Summary,
     method: OnceLock<Result<Method, ReductionError>>,
+    /// One sector of a gear on bolts; its `method` is for what the sector does not give.
+    bolted: OnceLock<Result<Box<BoltedGear>, ReductionError>>,
     pub(crate) base: Arc<ReducedGear>,
     asked: Asked,
     /// Of a wide gear, of which `gear` has a part of the layers.
@@ -120,8 +123,14 @@ impl GearReducer {
         way: (bool, ReductionWatch<'_>),
         coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
     ) -> Result<Self, E> {
-        let (condensed, method) = condense(gear, &material, &options, way, false, coordinates)?;
-        Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
+        let (condensed, found) = condense(gear, &material, &options, way, false, coordinates)?;
+        Ok(match found {
+            Found::Method(method) => Self::assembled(material, options, condensed, OnceLock::from(Ok(method))),
+            Found::Bolted(bolted) => {
+                let bolted = OnceLock::from(Ok(bolted));
+                Self { bolted, ..Self::assembled(material, options, condensed, OnceLock::new()) }
+            }
+        })
     }
 
     /// Reduces the first window of a wide gear by means of a shorter one with equal layers, `gear`. Only the columns of
@@ -157,8 +166,8 @@ impl GearReducer {
     ) -> Self {
         let Condensed { gear, coordinates, summary, base } = condensed;
         let dofs = DofMap::new(gear.mesh().nodes.len(), gear.held_nodes());
-        let (given, asked, stack) = Default::default();
-        Self { stack, gear, given, material, options, dofs, coordinates, summary, method, base, asked }
+        let (given, asked, stack, bolted) = Default::default();
+        Self { stack, gear, given, material, options, dofs, coordinates, summary, method, bolted, base, asked }
     }
 
     /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for a gear without degrees of
@@ -178,7 +187,7 @@ impl GearReducer {
     pub(crate) fn method(&self) -> Result<&Method, ReductionError> {
         let again = || {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
-            let general = self.summary.way == ReductionWay::General;
+            let general = self.summary.way != ReductionWay::CyclicSector;
             let method = method_again(gear, &self.material, &self.options, general, &|| self.kept_factor())?;
             self.keep_factor(&method);
             Ok(method)

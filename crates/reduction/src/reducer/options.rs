@@ -65,6 +65,9 @@ impl std::fmt::Debug for ReductionWatch<'_> {
 pub enum ReductionWay {
     /// One sector, joined with itself.
     CyclicSector,
+    /// One sector, joined with itself, and bolts at places of the gear beside it; what contact does not need by one factor of
+    /// the whole gear.
+    SectorAndBolts,
     /// One factor of the whole gear.
     General,
 }
@@ -74,6 +77,7 @@ impl ReductionWay {
     pub fn name(self) -> &'static str {
         match self {
             Self::CyclicSector => "cyclic sector",
+            Self::SectorAndBolts => "cyclic sector, and bolts",
             Self::General => "general",
         }
     }

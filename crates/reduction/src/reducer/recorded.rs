@@ -38,6 +38,7 @@ impl GearReducer {
         let seen = match (gear.is_periodic_sector(), general) {
             (false, _) => None,
             (true, true) => Some(gear.clone().whole()?),
+            (true, false) if summary.way == ReductionWay::SectorAndBolts => Some(gear.clone().whole()?),
             (true, false) => sectors(&gear, None, &options)?.and_then(|(_, copies)| copies),
         };
         let (gear, given) = match seen {

@@ -24,6 +24,9 @@ impl GearReducer {
         window: &Window,
         (other, theirs): (&Self, &Window),
     ) -> Result<Mat<f64>, ReductionError> {
+        if let (Some(own), Some(another)) = (self.bolted()?, other.bolted()?) {
+            return own.between(&self.loads(window)?, (another, &other.loads(theirs)?));
+        }
         match (self.method()?, other.method()?) {
             (Method::Cyclic(own), Method::Cyclic(another)) => own.between(another, [window.shift, theirs.shift]),
             (Method::General(general, _), Method::General(..)) if self.is_meshed_as(other) => {

@@ -74,6 +74,13 @@ impl GearReducer {
             return Ok(window);
         }
         let options = ReductionOptions { first, ..self.options.clone() };
+        if let Some(bolted) = self.bolted()? {
+            let opened = Opened::new(&self.gear, &self.coordinates, &options)?;
+            let compliance = Compliance::Whole(bolted.compliance(&opened.loads)?);
+            let window = Arc::new(opened.reduced(&options, compliance));
+            known.keep(first, &window);
+            return Ok(window);
+        }
         let (teeth, window) = (self.gear.tooth_count(), options.window as u32);
         let ring = ToothRing { teeth, first: self.options.first % teeth, window };
         let opened = Opened::new(&self.gear, &self.coordinates, &options)?;

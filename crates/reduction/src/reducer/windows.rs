@@ -25,6 +25,7 @@ impl GearReducer {
         if self.summary.way == ReductionWay::CyclicSector {
             return Ok(Window { reduced: self.base.clone(), shift: 0 });
         }
+        // Of a gear on bolts as well: in its own frame.
         Ok(Window { reduced: self.window_of_teeth(first)?, shift: 0 })
     }
 

@@ -37,8 +37,14 @@ fn meshed(gear: &Gear, face: u32, extent: Extent) -> MeshedGear {
     MeshedGear::find(mesh::generate(gear, &options).unwrap(), gear, &GroupNames::default()).unwrap().0
 }
 
-const BOLTS: Bolts =
-    Bolts { count: 6, first_angle: 0.2, width: 9.0, heights: Some([-2.5, 3.0]), stiffness: [4e4, 9e4, 2e4] };
+const BOLTS: Bolts = Bolts {
+    count: 6,
+    first_angle: 0.2,
+    width: 9.0,
+    heights: Some([-2.5, 3.0]),
+    stiffness: [4e4, 9e4, 2e4],
+    opens_beyond: None,
+};
 
 fn bolted(mesh: MeshedGear, all_around: [f64; 3], bolts: Bolts) -> MeshedGear {
     mesh.coupled(BoreCoupling::Elastic(Foundation::new(all_around, Some(bolts)).unwrap()))
@@ -103,11 +109,15 @@ fn bolts_have_their_stiffness_and_place() {
 }
 
 /// A ring with three windows on six bolts, and on springs beside them: C of all is that of the whole mesh with its springs, to
-/// 1e-10 of its largest entry, and so is a window that has gone on.
+/// 1e-10 of its largest entry, by one sector and bolts beside it and by one factor of the whole gear.
 #[test]
 fn three_windows_on_six_bolts_are_those_of_the_whole_mesh() {
     let exact = ring();
-    for (all_around, extent) in [([0.0; 3], Extent::Whole), ([50.0, 20.0, 10.0], Extent::Periodic)] {
+    for (all_around, extent, way) in [
+        ([0.0; 3], Extent::Whole, ReductionWay::SectorAndBolts),
+        ([50.0, 20.0, 10.0], Extent::Periodic, ReductionWay::SectorAndBolts),
+        ([50.0, 0.0, 0.0], Extent::Whole, ReductionWay::General),
+    ] {
         let whole = bolted(meshed(&exact, 2, Extent::Whole), all_around, BOLTS);
         let dofs = DofMap::new(whole.mesh().nodes.len(), &[]);
         let system = fem::assemble(whole.mesh(), &Material::STEEL, &dofs, &ElementOptions::default()).unwrap();
@@ -123,7 +133,7 @@ fn three_windows_on_six_bolts_are_those_of_the_whole_mesh() {
         }
         let factor = stiffness.cholesky().unwrap();
         let reducer = reduced(bolted(meshed(&exact, 2, extent), all_around, BOLTS), 2);
-        assert_eq!((reducer.way(), reducer.is_cyclic()), (ReductionWay::General, false));
+        assert_eq!((reducer.way(), reducer.is_cyclic()), (way, false));
         let windows: Vec<Window> = [0, 13, 27].iter().map(|&first| reducer.window(first).unwrap()).collect();
         let all: Vec<(&GearReducer, &Window)> = windows.iter().map(|window| (&reducer, window)).collect();
         let found = GearReducer::compliance_of(&all).unwrap();
@@ -142,6 +152,114 @@ fn three_windows_on_six_bolts_are_those_of_the_whole_mesh() {
         println!("{all_around:?}, {extent:?}: off by {off:.1e}; windows alone {a:.3e}, {b:.3e} mm/N");
         assert!(off < 1e-10, "{off:e}");
         assert!((a / b - 1.0).abs() > 1e-3, "teeth beside bolts and between them yield alike: {a:e}, {b:e}");
+    }
+}
+
+/// Bolts beside one sector and bolts in K of the whole gear: windows, fields, what bolts open and carry are alike to 1e-10, of a
+/// straight and a helical ring and of a gear with teeth outside, of bolts that open and of others.
+#[test]
+fn bolts_beside_a_sector_are_those_of_the_whole_gear() {
+    let ring_of = |beta: f64| {
+        let data = GearData {
+            teeth: 40,
+            helix_angle: beta.to_radians(),
+            face_width: 8.0,
+            addendum_coefficient: 0.85,
+            root_radius_coefficient: 0.25,
+            bore_diameter: -160.0 / beta.to_radians().cos(),
+            ..GearData::default()
+        };
+        Gear::new(data.with_usual_shaper(0.0)).unwrap()
+    };
+    let outer = Gear::new(GearData { teeth: 23, face_width: 8.0, bore_diameter: 40.0, ..GearData::default() }).unwrap();
+    for (name, exact, all_around, opens_beyond) in [
+        ("ring", ring_of(0.0), [0.0; 3], None),
+        ("helical ring, opens", ring_of(20.0), [0.0; 3], Some(50.0)),
+        ("gear, springs beside", outer, [0.0, 30.0, 10.0], Some(0.0)),
+    ] {
+        let mesh = bolted(meshed(&exact, 2, Extent::Whole), all_around, Bolts { opens_beyond, ..BOLTS });
+        let own = reduced(mesh.clone(), 2);
+        let whole = GearReducer::general(mesh, Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
+        assert_eq!((own.way(), whole.way()), (ReductionWay::SectorAndBolts, ReductionWay::General));
+        let off = |a: &Mat<f64>, b: &Mat<f64>| (a - b).norm_max() / b.norm_max().max(1e-300);
+        let mut all = Vec::new();
+        for first in [0, 9] {
+            let [a, b] = [&own, &whole].map(|gear| gear.window(first).unwrap());
+            assert_eq!((&a.reduced.nodes, &a.reduced.teeth), (&b.reduced.nodes, &b.reduced.teeth));
+            all.push(("C", off(a.reduced.compliance(), b.reduced.compliance())));
+            let n = a.reduced.coordinates();
+            let forces: Vec<f64> = (0..n).map(|i| (0.7 * i as f64).sin()).collect();
+            let every: Vec<u32> = (0..own.gear().mesh().nodes.len() as u32).collect();
+            let fields = [(&own, &a), (&whole, &b)].map(|(gear, window)| {
+                let field = gear.expand_under(window, &[&forces], &every).unwrap().remove(0);
+                Mat::from_fn(3, field.len(), |i, j| field[j][i])
+            });
+            all.push(("field", off(&fields[0], &fields[1])));
+            let [a, b] = [(&own, &a), (&whole, &b)].map(|(gear, window)| gear.bolts_and_flanks(window).unwrap());
+            all.push(("flanks", off(&a.flanks, &b.flanks)));
+            all.push(("springs", off(&a.springs, &b.springs)));
+        }
+        let [a, b] = [&own, &whole].map(|gear| gear.bolt_compliance().unwrap());
+        all.push(("openings", off(&a.openings, &b.openings)));
+        all.push(("springs by bolts", off(&a.springs, &b.springs)));
+        println!("{name}: {all:?}");
+        // Forces that change their sign from node to node leave a field that is small beside what each of them makes.
+        let most = |of: &str| if of == "field" { 1e-9 } else { 1e-10 };
+        assert!(all.iter().all(|own| own.1 < most(own.0)), "{name}: {all:?}");
+    }
+}
+
+/// What the sector does not give comes from the whole gear: its lowest frequency and stress are those of a gear in one factor.
+#[test]
+fn what_a_sector_on_bolts_does_not_give_is_the_whole_gears() {
+    let mesh = bolted(meshed(&ring(), 2, Extent::Whole), [0.0; 3], BOLTS);
+    let whole = GearReducer::general(mesh.clone(), Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
+    let own = reduced(mesh, 2);
+    assert_eq!(own.way(), ReductionWay::SectorAndBolts);
+    let [a, b] = [&own, &whole].map(|gear| gear.lowest_elastic_hz().unwrap());
+    assert!((a / b - 1.0).abs() < 1e-9, "{a} and {b} Hz");
+    for first in [0, 11] {
+        let stress = [&own, &whole].map(|gear| {
+            let window = gear.window(first).unwrap();
+            let node = window.reduced.nodes[3];
+            let forces: Vec<f64> = (0..window.reduced.coordinates()).map(|i| (0.7 * i as f64).sin()).collect();
+            gear.stress_modes(&window, &[node]).unwrap().stress_under(&forces).unwrap()[0]
+        });
+        let most = stress[1].iter().fold(0.0, |most: f64, s| most.max(s.abs()));
+        let off = (0..6).map(|k| (stress[0][k] - stress[1][k]).abs()).fold(0.0, f64::max) / most;
+        println!("{a} Hz, {b} Hz; {stress:?} MPa");
+        assert!(off < 1e-8, "stress off by {off:e}");
+    }
+}
+
+/// Bolts hold a gear against what loads it: their forces and those on its flanks are in balance.
+#[test]
+fn forces_of_bolts_balance_those_on_the_flanks() {
+    let mesh = bolted(meshed(&ring(), 2, Extent::Whole), [0.0; 3], BOLTS);
+    let reducer = reduced(mesh, 2);
+    let window = reducer.window(5).unwrap();
+    let found = reducer.bolts_and_flanks(&window).unwrap();
+    let nodes = &reducer.gear().mesh().nodes;
+    for (at, &node) in window.reduced.nodes.iter().enumerate().step_by(7) {
+        let [x, y, _] = nodes[node as usize];
+        for axis in 0..3 {
+            let forces = found.springs.col(3 * at + axis);
+            // The ring is pressed inwards: the radial force of a bolt is along -e_r.
+            let of = |bolt: usize| {
+                let angle = BOLTS.first_angle + TAU * bolt as f64 / 6.0;
+                let [radial, along, axial] = [0, 1, 2].map(|k| forces[3 * bolt + k]);
+                let (sin, cos) = angle.sin_cos();
+                [-radial * cos - along * sin, -radial * sin + along * cos, axial, along * 80.0]
+            };
+            let sums: [f64; 4] = std::array::from_fn(|k| (0..6).map(|bolt| of(bolt)[k]).sum());
+            let unit = |k: usize| f64::from(u8::from(k == axis));
+            let moment = x * unit(1) - y * unit(0);
+            println!("{node} along {axis}: {sums:?}, moment {moment}");
+            assert!((sums[2] + unit(2)).abs() < 1e-9, "{sums:?}");
+            // A bolt's forces are along the circle, not along its chord, over its width.
+            assert!((sums[0] + unit(0)).abs() < 0.02 && (sums[1] + unit(1)).abs() < 0.02, "{sums:?}");
+            assert!((sums[3] + moment).abs() < 0.02 * 80.0, "{sums:?} beside {moment}");
+        }
     }
 }
 
@@ -181,8 +299,8 @@ fn bolts_side_by_side_are_springs_all_around() {
     let exact = ring();
     let stiffness = [3e3, 1e3, 5e2];
     let (width, height) = (TAU * 80.0 / 60.0, 8.0);
-    let bolts =
-        Bolts { count: 60, first_angle: 0.1, width, heights: None, stiffness: stiffness.map(|k| k * width * height) };
+    let stiffnesses = stiffness.map(|k| k * width * height);
+    let bolts = Bolts { count: 60, first_angle: 0.1, width, heights: None, stiffness: stiffnesses, opens_beyond: None };
     let c = |foundation: Foundation| {
         let mesh = meshed(&exact, 2, Extent::Whole).coupled(BoreCoupling::Elastic(foundation));
         reduced(mesh, 2).window(0).unwrap().reduced.compliance().clone()

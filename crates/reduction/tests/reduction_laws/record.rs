@@ -51,7 +51,7 @@ impl Sample {
 
 /// Record of the sample: version, digest of its code without comments, and what it holds: count, sum of sizes and sum
 /// weighted by place of the numbers of a window and of a half tooth.
-const RECORD: (u32, &str, usize, f64, f64) = (7, "e4f3841ea8feef7a", 7290, 0.0032079394506089438, 11.442760429138692);
+const RECORD: (u32, &str, usize, f64, f64) = (8, "732204def615826a", 7290, 0.0032079394506089438, 11.442760429138692);
 
 /// A record of before must not be taken for one of today: its version goes up with what its code does.
 #[test]

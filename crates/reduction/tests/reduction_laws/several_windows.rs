@@ -68,7 +68,9 @@ fn windows_of_one_gear_are_its_condensation() {
                 // The first window of a reduction is another one than that which is asked for.
                 let asked = options(sides[i], 2 + i, first + 3);
                 let made = match way {
-                    ReductionWay::General => GearReducer::general(mesh(extent), Material::STEEL, asked),
+                    ReductionWay::SectorAndBolts | ReductionWay::General => {
+                        GearReducer::general(mesh(extent), Material::STEEL, asked)
+                    }
                     ReductionWay::CyclicSector => GearReducer::new(mesh(extent), Material::STEEL, asked),
                 };
                 let reducer = made.unwrap();

@@ -30,7 +30,8 @@ use study::Campbell;
 use crate::{ReportError, Written, branch_files, write_result};
 use store::folder::ResultDirectory;
 
-/// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
+/// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`, of gears on
+/// bolts `bolts`; of a vibration `modes`, `campbell`,
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion`, `energy`, `section` where it comes back to where its meshes
 /// began, and, where it is long enough to tell orders, `motion_orders` and of a run-up `waterfall`, of that `cycles`, and `campbell` and `crossings` without a vibration, as well; of a branch over the speed `branch`, `bifurcations`, `in_time`.
 ///
@@ -42,6 +43,9 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Res
         rows::shafts(file, &result.positions),
         rows::line_loads(&result.meshes, &result.positions),
     ];
+    if result.positions.iter().flat_map(|own| &own.bolts).any(|bolts| !bolts.is_empty()) {
+        tables.push(rows::bolts(file, &result.positions));
+    }
     if let Some(swings) = &result.vibration {
         tables.extend([
             vibration_rows::modes(file, swings),
@@ -106,6 +110,7 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         rows::positions(file, &[]),
         rows::shafts(file, &[]),
         rows::line_loads(&[], &[]),
+        rows::bolts(file, &[]),
         vibration_rows::modes(file, &none),
         vibration_rows::campbell(&none.campbell),
         vibration_rows::crossings(&none.campbell),

@@ -8,7 +8,7 @@ use gearbox::{GearboxPosition, LoadSharing, PlanetShare, ShaftLine, line_load, l
 use minijinja::context;
 use scene::gearbox::{Gearbox, GearboxPlanets, PlanetMesh};
 
-use super::{branch, motion, norm, space::BoxInSpace, vibration};
+use super::{branch, motion, norm, space::BoxInSpace, summary, vibration};
 use crate::{
     ReportError,
     charts::{Curve, LineChart, embedded},
@@ -49,6 +49,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(shafts(file, result));
     page.push(bearings(file, result));
     page.push(load_zones(result));
+    page.push(bolts(file, result));
     page.push(outputs(result));
     page.push(patterns(result));
     result.accuracy.iter().flat_map(how_exact).for_each(|part| page.push(part));
@@ -263,6 +264,35 @@ fn load_zones(result: &GearboxResult) -> Part {
     let angle = "angle from +x towards +y in deg";
     let chart = LineChart::new("Load zones", [angle, "mean force of a rolling element in N"], &curves, true);
     chart.and_then(|own| own.figure()).map_or_else(Part::more, |own| Part::more().figures([own]))
+}
+
+/// Forces of the bolts of every gear that has some.
+fn bolts(file: &Gearbox, result: &GearboxResult) -> Part {
+    let all = summary::bolts(file, result);
+    if all.is_empty() {
+        return Part::more();
+    }
+    let head = ["bolts of", "radial N from", "to", "tangential N", "axial N", "open"];
+    let rows = all.iter().map(|own| {
+        let force = |n: f64| Cell::text(format!("{n:.0}"));
+        let forces =
+            [own.min_radial_force_n, own.max_radial_force_n, own.max_tangential_force_n, own.max_axial_force_n];
+        let [from, to, along, axial] = forces.map(force);
+        let (open, of) = (own.max_open_bolts, own.mean_radial_forces_n.len());
+        vec![Cell::text(own.gear), from, to, along, axial, Cell::text(format!("{open} of {of}"))]
+    });
+    let curve = |own: &summary::BoltsSummary<'_>| {
+        let points = own.mean_radial_forces_n.iter().enumerate().map(|(i, force)| (i as f64 + 1.0, *force));
+        Curve { label: own.gear.to_owned(), points: points.collect() }
+    };
+    let curves: Vec<Curve> = all.iter().map(curve).collect();
+    let axes = ["number of the bolt, counter-clockwise", "mean force along the radius in N"];
+    let chart = LineChart::new("Bolts", axes, &curves, true).and_then(|own| own.figure());
+    let part = Part::new("Bolts").closing().grid(Grid::new(head).rows(rows));
+    let part = part.note(
+        "Radial: how hard a bolt presses the gear, preload included; below 0 it pulls. Open: lifted off at once.",
+    );
+    chart.map_or_else(|| part.clone(), |own| part.clone().figures([own]))
 }
 
 fn loss(bearing: &BearingLoad) -> Option<f64> {

@@ -8,7 +8,7 @@ use analysis::pair_rating::RatingHeadline;
 use answer::keyed;
 use described::Key;
 use gearbox::{
-    LoadSharing, PlanetShare,
+    BoltForce, LoadSharing, PlanetShare,
     rolling_bearing::{ElementLoad, RollingElements},
 };
 use geometry::GearPair;
@@ -35,6 +35,9 @@ described::described! {
         root_stress: Vec<RootSummary<'a>>,
         /// bearings, in the order of the file
         bearings: Vec<BearingSummary<'a>>,
+        /// bolts of the gears that have some, at rest; missing without
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        bolts: Vec<BoltsSummary<'a>>,
         /// outputs, in the order of the torques
         outputs: Vec<OutputSummary>,
         /// how planets share the load of each mesh that they have in common; missing without `[[planets]]`
@@ -154,6 +157,25 @@ described::described! {
         /// rolling elements; missing for a bearing that is given by its stiffness
         #[serde(skip_serializing_if = "Option::is_none")]
         rolling: Option<RollingSummary>,
+    }
+
+    /// Bolts of a gear over all positions.
+    #[derive(Serialize)]
+    pub(super) struct BoltsSummary<'a> {
+        /// name of the gear
+        pub gear: &'a str,
+        /// mean force of each bolt that presses the gear along the radius, with `preload_n`, from the first one on
+        pub mean_radial_forces_n: Vec<f64>,
+        /// largest of the forces along the radius
+        pub max_radial_force_n: f64,
+        /// least of them; below 0 a bolt pulls
+        pub min_radial_force_n: f64,
+        /// largest force along the circumference
+        pub max_tangential_force_n: f64,
+        /// largest force along the axis
+        pub max_axial_force_n: f64,
+        /// largest number of bolts that have lifted off at once
+        pub max_open_bolts: usize,
     }
 
     /// Rolling elements of a bearing over all positions.
@@ -320,7 +342,7 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 14] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 15] = [
     ("the summary of a gearbox", GearboxSummary::KEYS),
     ("shafts", ShaftSummary::KEYS),
     ("meshes, a gearbox", MeshSummary::KEYS),
@@ -328,6 +350,7 @@ pub(super) const OBJECTS: [(&str, &[Key]); 14] = [
     ("planets", PlanetsSummary::KEYS),
     ("bearings, a gearbox", BearingSummary::KEYS),
     ("rolling", RollingSummary::KEYS),
+    ("bolts", BoltsSummary::KEYS),
     ("life", LifeSummary::KEYS),
     ("outputs, a gearbox", OutputSummary::KEYS),
     ("vibration", VibrationSummary::KEYS),
@@ -347,6 +370,7 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
         meshes: result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair)).collect(),
         root_stress: roots(file, result),
         bearings: result.bearings.iter().map(bearing).collect(),
+        bolts: bolts(file, result),
         outputs: outputs
             .map(|o| OutputSummary { mean_lag_urad: 1e6 * o.mean, peak_to_peak_lag_urad: 1e6 * o.peak_to_peak })
             .collect(),
@@ -372,6 +396,27 @@ fn roots<'a>(file: &'a Gearbox, result: &GearboxResult) -> Vec<RootSummary<'a>> 
         both.map(|both| both.map(one)).into_iter().flatten()
     };
     file.gears.iter().zip(&result.root_bending).flat_map(of_gear).collect()
+}
+
+/// Bolts of all gears that have some.
+pub(super) fn bolts<'a>(file: &'a Gearbox, result: &GearboxResult) -> Vec<BoltsSummary<'a>> {
+    let of_gear = |(i, gear): (usize, &'a GearboxGear)| {
+        let all: Vec<&Vec<BoltForce>> = result.positions.iter().filter_map(|p| p.bolts.get(i)).collect();
+        let count = all.first().map_or(0, |bolts| bolts.len());
+        let each = || all.iter().flat_map(|bolts| bolts.iter());
+        let most = |of: fn(&BoltForce) -> f64| each().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let mean = |k: usize| all.iter().map(|bolts| bolts[k].radial).sum::<f64>() / all.len() as f64;
+        (count > 0).then(|| BoltsSummary {
+            gear: &gear.name,
+            mean_radial_forces_n: (0..count).map(mean).collect(),
+            max_radial_force_n: most(|own| own.radial),
+            min_radial_force_n: -most(|own| -own.radial),
+            max_tangential_force_n: most(|own| own.tangential.abs()),
+            max_axial_force_n: most(|own| own.axial.abs()),
+            max_open_bolts: all.iter().map(|bolts| bolts.iter().filter(|own| own.open).count()).max().unwrap_or(0),
+        })
+    };
+    file.gears.iter().enumerate().filter_map(of_gear).collect()
 }
 
 fn planets<'a>(

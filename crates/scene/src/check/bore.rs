@@ -45,6 +45,10 @@ fn of_bolts(s: &Source<'_>, table: &Spanned<RawBolts>) -> Checked<BoltsScene> {
         let what = "bolts have a number and an arc of the bore that each holds";
         return Err(s.conflict(&table.span(), what, "state `count` and `width_mm`"));
     }
+    if let Some(preload) = raw.preload_n.as_ref().filter(|_| !raw.opens.as_ref().is_some_and(|own| *own.get_ref())) {
+        let what = "`preload_n` is of bolts that open, and these do not";
+        return Err(s.conflict(&preload.span(), what, "write `opens = true`, or leave it out"));
+    }
     let over_mm = heights(s, "over_mm", &raw.over_mm)?;
     let (count, width_mm) = (value!(s, BOLTS, raw.count)?, value!(s, BOLTS, raw.width_mm)?);
     Ok(BoltsScene { count, width_mm, over_mm, ..BoltsScene::read(s, raw, f64::INFINITY)? })

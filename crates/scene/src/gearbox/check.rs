@@ -85,6 +85,9 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let moves = moves.transpose()?;
     over_time(s, (&raw, &torques), table.get_ref(), moves.as_ref().map(Asked::motion))?;
     let modes = modes(s, &raw, moves.as_ref().map(Asked::motion))?;
+    if vibration.is_some() || moves.is_some() {
+        closed_bolts(s, &raw.mesh, &meshes)?;
+    }
     without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;
     let (motion, branch) = match moves {
         None => (None, None),
@@ -154,6 +157,15 @@ fn without_friction(
     let said = format!("the pair of mesh \"{}\" has friction, and {what}", mesh.name);
     let span = table.get_ref().scene.as_ref().map_or(table.span(), Spanned::span);
     Err(s.conflict(&span, said, "leave `friction` out, or `set` it to 0"))
+}
+
+/// Checks that no bolts open: in vibration and in motion they have no forces of their own.
+fn closed_bolts(s: &Source<'_>, tables: &[Spanned<RawMesh>], meshes: &[GearboxMesh]) -> Checked<()> {
+    let opens = |(_, mesh): &(&Spanned<RawMesh>, &GearboxMesh)| mesh.scene.has_opening_bolts();
+    let Some((table, mesh)) = tables.iter().zip(meshes).find(opens) else { return Ok(()) };
+    let said = format!("bolts of mesh \"{}\" open, which they do at rest alone", mesh.name);
+    let span = table.get_ref().scene.as_ref().map_or(table.span(), Spanned::span);
+    Err(s.conflict(&span, said, "leave `opens` out of its scene, or vibration and motion out of this file"))
 }
 
 /// `more`: keys of its scene that are set beside the file.

@@ -86,7 +86,7 @@ table! {
 
 table! {
     /// `[pinion.bore.bolts]`
-    BOLTS, RawBolts => BoltsScene Copy: "bolts, keys or teeth of a spline: springs of an elastic bore at places of the gear, beside those all around or, from three on, in their place. Each tooth is then held otherwise, and the whole gear is condensed in one factor", needed ["count", "width_mm"]; {
+    BOLTS, RawBolts => BoltsScene Copy: "bolts, keys or teeth of a spline: springs of an elastic bore at places of the gear, beside those all around or, from three on, in their place. Each tooth is then held otherwise", needed ["count", "width_mm"]; {
         count: bare_whole(1, 1000) => {u32}, "their number, evenly around";
         first_angle_deg: number(-360.0, 360.0, 0.0), "angle of the middle of the first one, degrees, counter-clockwise seen from +z, from the middle of tooth 0 at mid-face";
         width_mm: bare(1e-3, 1e4) => {f64}, "arc of the bore that each holds, mm";
@@ -94,6 +94,8 @@ table! {
         radial_n_per_mm: number(0.0, 1e12, 0.0), "stiffness of each along the radius, N/mm, spread evenly over what it holds";
         tangential_n_per_mm: number(0.0, 1e12, 0.0), "along the circumference, N/mm";
         axial_n_per_mm: number(0.0, 1e12, 0.0), "along the axis, N/mm";
+        opens: switch(false), "whether each lifts off along its radius, where it then carries nothing, in a gearbox at rest; false: it pulls as it presses";
+        preload_n: number(0.0, 1e12, 0.0), "force that presses each bolt that opens before any load, N; flanks have their shape under it";
     }
 }
 

@@ -31,10 +31,11 @@ fn a_bore_is_read_as_it_is_written() {
     let found =
         read(&bolts(6, "first_angle_deg = 30.0\nover_mm = [-4.0, 4.0]\n")).unwrap().wheel.bore.foundation().unwrap();
     let (first_angle, heights, stiffness) = (30f64.to_radians(), Some([-4.0, 4.0]), [0.0, 2e5, 1e5]);
-    let wanted = Bolts { count: 6, first_angle, width: 8.0, heights, stiffness };
+    let wanted = Bolts { count: 6, first_angle, width: 8.0, heights, stiffness, opens_beyond: None };
     assert_eq!(found, Foundation::new([0.0; 3], Some(wanted)).unwrap());
     for (scene, said) in [
         ("[wheel.bore]\ncoupling = \"elastic\"\n[wheel.bore.bolts]\ncount = 6\n".into(), "an arc of the bore"),
+        (bolts(6, "preload_n = 5.0\n"), "`preload_n` is of bolts that open"),
         (bolts(2, ""), "2 bolts alone"),
         (bolts(6, "over_mm = [3.0, 2.0]\n"), "`over_mm` is not two heights"),
     ] {

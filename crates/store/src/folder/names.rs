@@ -1,7 +1,7 @@
 //! Names of all files that a result may hold: what a killed run has left is known by them, since it has no record yet.
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 64] = [
+const OURS: [&str; 65] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -43,6 +43,7 @@ const OURS: [&str; 64] = [
     "bearing_forces.csv",
     "bearing_forces.uff",
     "line_load.csv",
+    "bolts.csv",
     "motion.csv",
     "motion_orders.csv",
     "cases.csv",

@@ -108,6 +108,8 @@ const GEAR: &[Row] = &[
     ("bore.bolts.radial_n_per_mm", Reduced, ON_BOLTS, "5e5"),
     ("bore.bolts.tangential_n_per_mm", Reduced, ON_BOLTS, "5e5"),
     ("bore.bolts.axial_n_per_mm", Reduced, ON_BOLTS, "5e5"),
+    ("bore.bolts.opens", Reduced, ON_BOLTS, "true"),
+    ("bore.bolts.preload_n", Reduced, ON_BOLTS, "500"),
     ("groups.bore", Files, "", "Hub"),
     ("groups.flank_left", Files, "", "Left_{k}"),
     ("groups.flank_right", Files, "", "Right_{k}"),

@@ -38,6 +38,9 @@ pub type Approach<'a> = &'a dyn Fn(usize, f64) -> (f64, f64);
 /// g_r = g0_r + l_r . d + sum of S_rj F_j + delta_r(F_r),   S between rows = N U N',   S_ri = N_r U_f' A_i'
 /// ```
 /// d: coordinates of the bearing, f = l' F the force along them; N: shares, A: supports of slices. Theory (38b).
+///
+/// Rows that press before any load with forces P deform the gear, whose flanks have their shape so: S_iP P is taken off
+/// all gaps. Theory (38c).
 pub struct PressedBore<'a> {
     /// Gaps g0_r + l_r . d with all bodies rigid, mm.
     pub gaps: &'a [f64],
@@ -51,6 +54,8 @@ pub struct PressedBore<'a> {
     pub shares: &'a [[(usize, f64); 2]],
     /// Its flanks.
     pub flanks: Vec<FlanksOfBore<'a>>,
+    /// P: forces of all rows before any load, N.
+    pub preload: f64,
     /// Forces of the rows, N: those to begin with, then those of the solution.
     pub forces: &'a mut Vec<f64>,
 }
@@ -143,9 +148,7 @@ impl JoinedContacts {
         let n = sizes().sum();
         let symmetric = contacts.iter().all(|contact| contact.friction.is_none());
         self.join((&*contacts, poses, common), &*bores, &first, (n, symmetric));
-        self.gaps.clear();
-        self.gaps.extend(contacts.iter().flat_map(|contact| &contact.gaps));
-        self.gaps.extend(bores.iter().flat_map(|bore| bore.gaps));
+        self.find_gaps(contacts, (&*bores, &first), n);
         self.still.clear();
         self.still.resize(n, 0.0);
         let (owner, now, pressed) = (|row: usize| first.partition_point(|at| *at <= row) - 1, &*contacts, &*bores);
@@ -188,6 +191,34 @@ impl JoinedContacts {
         let n = OF_MESH * self.count;
         let entry = |p: usize, q: usize| self.tangent[(OF_MESH * of + p) * n + OF_MESH * by + q];
         std::array::from_fn(|p| std::array::from_fn(|q| entry(p, q)))
+    }
+
+    /// Gaps of all rows, less what preloads open: those of contacts have them too.
+    fn find_gaps(
+        &mut self,
+        contacts: &mut [&mut MeshContact],
+        (bores, first): (&[PressedBore<'_>], &[usize]),
+        n: usize,
+    ) {
+        let Self { gaps, compliance, .. } = self;
+        let mut opened = vec![0.0; n];
+        for (bore, &at) in bores.iter().zip(&first[contacts.len()..]).filter(|(bore, _)| bore.preload > 0.0) {
+            for column in compliance.chunks_exact(n.max(1)).skip(at).take(bore.gaps.len()) {
+                opened.iter_mut().zip(column).for_each(|(sum, s)| *sum += bore.preload * s);
+            }
+        }
+        for (contact, &at) in contacts.iter_mut().zip(first) {
+            let MeshContact { contact, gaps, .. } = &mut **contact;
+            for ((row, gap), opened) in contact.rows.iter_mut().zip(gaps).zip(&opened[at..]) {
+                row.gap -= opened;
+                *gap -= opened;
+            }
+        }
+        gaps.clear();
+        gaps.extend(contacts.iter().flat_map(|contact| &contact.gaps));
+        gaps.extend(bores.iter().flat_map(|bore| bore.gaps));
+        let start = n - bores.iter().map(|bore| bore.gaps.len()).sum::<usize>();
+        gaps[start..].iter_mut().zip(&opened[start..]).for_each(|(gap, opened)| *gap -= opened);
     }
 
     /// S between the rows of all contacts, column by column.

@@ -441,6 +441,14 @@ impl MeshContact {
         length / pair.base_helix_angle().cos()
     }
 
+    /// Forces (N) of the last solution on both gears' boundary coordinates, in the frames of the matrices, with these at
+    /// `poses`; `None` if there are no matrices of the flanks.
+    pub fn boundary_forces(&self, poses: &[Pose; 2]) -> Option<[Vec<f64>; 2]> {
+        let forces = self.solver.forces();
+        let supported = self.set.supported_rows(poses, self.rows(), self.slices(), forces);
+        self.set.forces_of(&supported, forces)
+    }
+
     /// Forces, openings and active rows of the last solution.
     pub fn solver(&self) -> &DenseSolver {
         &self.solver
