@@ -52,6 +52,7 @@ pub struct Train {
     middles: Vec<[f64; 2]>,
     ratios: Vec<f64>,
     in_space: Vec<f64>,
+    frame: f64,
 }
 
 /// Relative difference of distances, ratios and angles that is round-off of their input.
@@ -133,7 +134,7 @@ impl Train {
         let middle =
             |(mesh, own): (&GearMesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
         let middles = meshes.iter().zip(&meshing).map(middle).collect();
-        Ok(Self { meshes: meshing, middles, ratios, in_space })
+        Ok(Self { meshes: meshing, middles, ratios, in_space, frame: carrier })
     }
 
     /// Running of each mesh, in their order.
@@ -151,6 +152,11 @@ impl Train {
     /// the rotation of the carrier.
     pub fn ratios_in_space(&self) -> &[f64] {
         &self.in_space
+    }
+
+    /// Rotations of the frame of the carrier in space per rotation of the input shaft; 0 if no shaft is fixed in space.
+    pub fn frame_ratio(&self) -> f64 {
+        self.frame
     }
 
     /// Mesh cycles of each mesh with the input shaft rotated by `angle` (rad about +z) from its start. Whole cycles

@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone)]
 pub struct Vibration {
     rotors: Rotors,
-    /// Spin of each shaft over that of the input, about +z.
+    /// Spin of each shaft in space over that of the input, about +z.
     ratios: Vec<f64>,
     meshes: Vec<SwingingMesh>,
 }
@@ -100,7 +100,7 @@ impl Vibration {
             swinging.push(SwingingMesh { discs: mesh.discs, excitation, turn, lever, start: start[i], cycles });
         }
         let rotors = Rotors::holding(Assembly::new(Structure { elastic_meshes, ..structure })?, held)?;
-        let ratios = train.ratios().iter().map(|r| r * sense.sign() as f64).collect();
+        let ratios = train.ratios_in_space().iter().map(|r| r * sense.sign() as f64).collect();
         Ok(Self { rotors, ratios, meshes: swinging })
     }
 
@@ -134,7 +134,7 @@ impl Vibration {
         &self.rotors
     }
 
-    /// Spins of all shafts with the input at `speed`, rad/s about +z.
+    /// Spins of all shafts in space with the input at `speed`, rad/s about +z.
     pub fn speeds(&self, speed: f64) -> Vec<f64> {
         self.ratios.iter().map(|r| r * speed).collect()
     }

@@ -45,5 +45,6 @@ mod ross;
 mod rotors;
 mod swinging;
 mod trains;
+mod turning_frame;
 mod vibration;
 mod whirl;
