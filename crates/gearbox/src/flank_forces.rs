@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use contact::wrenches;
+
 use crate::ExactMesh;
 
 /// Forces of a mesh on the nodes of one of its gears, in the frame of its matrices.
@@ -23,8 +25,10 @@ pub struct SliceForces {
     /// How far both flanks approach each other beside what the matrices of the gears give way under these forces: the local
     /// approach, less what the matrices have of the half teeth, mm. Theory (38).
     pub approach: f64,
-    /// Nodes of the mesh and forces on them, N.
+    /// Nodes of the mesh and forces on them, N. Their resultant is nearly that of the slice: faces are not quite the flank.
     pub nodes: Vec<(u32, [f64; 3])>,
+    /// Force (N) and moment about the middle of the gear (N mm) on the flank itself.
+    pub wrench: [f64; 6],
 }
 
 impl FlankForces {
@@ -54,12 +58,16 @@ impl ExactMesh {
         for (i, state) in contact.states(forces).enumerate().filter(|(i, _)| forces[*i] > 0.0) {
             let (pair, force) = (set.pair_of(rows[i].patches.0), forces[i]);
             let approach = state.local.approach + beside[i];
+            let whole = wrenches(&self.poses, &rows[i..=i], &forces[i..=i]);
             let on = set.forces_of(&rows[i..=i], &forces[i..=i])?;
-            for ((own, window), on) in found.iter_mut().zip(windows).zip(&on) {
+            for (end, ((own, window), on)) in found.iter_mut().zip(windows).zip(&on).enumerate() {
+                let turned = |v: [f64; 3]| self.poses[end].inverse_transform_vector(&v.into());
+                let [f, m] = [turned(whole[end].force), turned(whole[end].moment)];
+                let wrench = [f.x, f.y, f.z, m.x, m.y, m.z];
                 let of_nodes = on.chunks_exact(3).map(|f| [f[0], f[1], f[2]]);
                 let nodes = window.reduced.nodes.iter().copied().zip(of_nodes);
                 let nodes = nodes.filter(|(_, f)| f.iter().any(|x| *x != 0.0)).collect();
-                own.slices.push(SliceForces { pair, force, approach, nodes });
+                own.slices.push(SliceForces { pair, force, approach, nodes, wrench });
             }
         }
         Some(found)

@@ -463,7 +463,7 @@ fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), Ge
     if let Some((quantity, value)) = values.into_iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0)) {
         return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value });
     }
-    for bearing in structure.bearings.iter().filter(|b| !structure.stands(b.shaft)) {
+    for bearing in structure.bearings.iter().filter(|b| !structure.can_hold_turn(b.shaft)) {
         let turning = |m: &nalgebra::Matrix6<f64>| m.row(5).amax().max(m.column(5).amax());
         if turning(&bearing.stiffness) > 0.0 || turning(&bearing.damping) > 0.0 {
             return Err(GearboxError::HeldTurn { bearing: bearing.name.clone() });

@@ -46,5 +46,6 @@ mod rotors;
 mod swinging;
 mod trains;
 mod turning_frame;
+mod turning_motion;
 mod vibration;
 mod whirl;
