@@ -402,7 +402,7 @@ impl Assembly {
     }
 
     /// Place of every node's axis from the axis of the frame, as displacements of all coordinates, mm. Theory (86b).
-    pub(crate) fn from_axis(&self) -> DVector<f64> {
+    pub(crate) fn places_of_axes(&self) -> DVector<f64> {
         let mut all = DVector::zeros(self.size());
         let Some(axis) = self.structure.fixed.map(|shaft| self.structure.shafts[shaft].origin) else { return all };
         for (shaft, (at, line)) in self.structure.shafts.iter().zip(self.lines()) {

@@ -58,7 +58,7 @@ impl TurningFrame {
         let coriolis = &moved - moved.transpose();
         let pull = &moved * &turn;
         let mut pull = 0.5 * (&pull + pull.transpose());
-        add_pressed_seats(assembly, &bent(assembly, &(mass * assembly.from_axis()))?, &mut pull);
+        add_pressed_seats(assembly, &bent(assembly, &(mass * assembly.places_of_axes()))?, &mut pull);
         let dampers = assembly.damping_in_space();
         let dragged = (dampers.amax() > 0.0).then(|| dampers * &turn);
         Ok(Some(Self { turn, coriolis, pull, dragged }))

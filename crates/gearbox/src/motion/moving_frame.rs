@@ -40,7 +40,8 @@ impl MovingFrame {
         *gyroscopic += ratio * &own.coriolis;
         let stiffness = free.of(&on_bodies, false);
         let dragged = own.dragged.as_ref().map(|own| free.of(&(ratio * bodies.of_nodes(own)), false));
-        let mut centrifugal = free.basis.tr_mul(&bodies.of_forces(&(&mass * assembly.from_axis()))) * (ratio * ratio);
+        let mut centrifugal =
+            free.basis.tr_mul(&bodies.of_forces(&(&mass * assembly.places_of_axes()))) * (ratio * ratio);
         // They do not turn the train.
         if let Some(i) = free.turn {
             centrifugal[i] = 0.0;

@@ -218,11 +218,11 @@ impl ReducedBodies {
 
     /// How a turn of the frame by a radian moves the coordinates: J of the places of all axes, mm.
     pub(super) fn by_frame(&self, assembly: &Assembly) -> DVector<f64> {
-        let from_axis = assembly.from_axis();
+        let places_of_axes = assembly.places_of_axes();
         let mut all = DVector::zeros(self.size());
         for (i, (node, _)) in self.nodes.iter().enumerate() {
             // Nodes within shafts follow their seats.
-            (all[6 * i], all[6 * i + 1]) = (-from_axis[node + 1], from_axis[*node]);
+            (all[6 * i], all[6 * i + 1]) = (-places_of_axes[node + 1], places_of_axes[*node]);
         }
         all
     }

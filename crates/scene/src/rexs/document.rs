@@ -206,6 +206,13 @@ impl<'a> Part<'_, 'a> {
         self.attribute(name)?.text().map(str::trim)
     }
 
+    /// Whether an attribute says no: alone, or as a list of which the first counts.
+    pub(super) fn is_off(&self, name: &'static str) -> bool {
+        let Some(node) = self.attribute(name) else { return false };
+        let first = node.descendants().filter_map(|n| n.text().map(str::trim)).find(|text| !text.is_empty());
+        first == Some("false")
+    }
+
     pub(super) fn number(&self, attribute: &'static str, wanted: &'static str) -> Result<Option<f64>, RexsError> {
         let Some(node) = self.attribute(attribute) else { return Ok(None) };
         let unit = node.attribute("unit").unwrap_or_default();

@@ -260,14 +260,13 @@ fn deck(own: &Own, springs: &[PairSpring]) -> (String, [usize; 2]) {
         writeln!(text, "*SPRING, ELSET=spring{element}\n1\n{stiffness:.12e}").unwrap();
         element += 1;
     };
-    for body in 0..=RING {
+    for (body, &from) in first.iter().enumerate() {
         let mean = mean_motion(own.body_gear(body));
         let mut stiffness = BEARING;
         if body == 0 {
             stiffness[5] = HELD;
         }
         for k in 0..6 {
-            let from = first[body];
             let terms = mean.iter().flat_map(|(n, shares)| (0..3).map(move |i| ((from + n, 1 + i), shares[(k, i)])));
             let at = seats + 6 * body + k;
             equation(&mut text, at, &terms.collect());
