@@ -63,7 +63,7 @@ pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGe
 }
 
 /// Checks that the file has nothing which a gearbox file cannot say and without which it would be another gearbox.
-fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
+fn whole<'a>(model: &Model<'a>, train: &Train<'_, 'a>) -> Result<(), RexsError> {
     let hint = || "take a pair alone with `--stage N`".to_owned();
     let bearings = model.relations("side").count();
     let most = [train.shafts.len(), train.stages.len(), train.loads.len(), bearings].into_iter().max().unwrap_or(0);
@@ -87,13 +87,7 @@ fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
             return Err(RexsError::Unfit { part: part.named(), what, hint: hint() });
         }
     }
-    let copied = |r: &roxmltree::Node<'_, '_>| {
-        let shaft = reference(*r, "assembly")?;
-        reference(*r, "part")
-            .filter(|_| train.planetary.as_ref().is_some_and(|own| own.is_copy(shaft)))
-            .map(str::to_owned)
-    };
-    let copies: std::collections::BTreeSet<String> = model.assemblies().filter_map(|r| copied(&r)).collect();
+    let copies = train.planetary.as_ref().map(|own| own.pass_over_copies(model)).unwrap_or_default();
     let is_copy = |id: &str| copies.contains(id);
     if let Some(planetary) = &train.planetary {
         let planet = planetary.planets.first().and_then(|own| train.shafts.iter().position(|s| s.id == own.id));

@@ -130,6 +130,27 @@ impl<'m, 'a> Planetary<'m, 'a> {
         self.copies.contains(id)
     }
 
+    /// Gears of the other planets, and all that is theirs alone, is told by the first one.
+    pub(super) fn pass_over_copies(&self, model: &Model<'a>) -> BTreeSet<&'a str> {
+        let of_copy = |r: &Node<'_, '_>| reference(*r, "assembly").is_some_and(|id| self.is_copy(id));
+        let parts: BTreeSet<&str> = model.assemblies().filter(of_copy).filter_map(|r| reference(r, "part")).collect();
+        let is_theirs = |r: &Node<'_, '_>| {
+            let ids = ["inner_part", "outer_part", "side_1", "side_2", "gear_1", "gear_2", "gear"];
+            ids.iter().filter_map(|role| reference(*r, role)).any(|id| self.is_copy(id) || parts.contains(id))
+        };
+        let of = |kind: &'static str, roles: &'static [&'static str]| {
+            let own: Vec<_> = model.relations(kind).filter(is_theirs).collect();
+            own.into_iter().flat_map(move |r| roles.iter().filter_map(move |role| reference(r, role)))
+        };
+        let joined = of("side", &["assembly"]).chain(of("stage", &["stage"])).chain(of("flank", &["left", "right"]));
+        let all: Vec<&str> = joined.chain(of("stage_gear_data", &["stage_gear_data"])).collect();
+        all.into_iter()
+            .chain(parts.iter().copied())
+            .chain(self.copies.iter().copied())
+            .for_each(|id| model.pass_over(id));
+        parts
+    }
+
     /// Whether a part stands in the frame of the carrier.
     pub(super) fn stands(&self, id: &str) -> bool {
         self.standing.iter().any(|own| own.id == id)
