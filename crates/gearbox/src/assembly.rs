@@ -3,7 +3,10 @@
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
 use nalgebra::{ComplexField, DMatrix, DVector, Matrix6};
 
-use crate::{Disc, ElasticBody, GearboxError, Structure, Supports, shafts_in_shafts::rigid, turning_frame::quarter};
+use crate::{
+    Disc, ElasticBody, GearboxError, Structure, Supports,
+    shafts_in_shafts::{quarter, rigid},
+};
 
 /// A structure divided into beam elements. Each node has six coordinates (displacements x, y, z in mm, rotations about
 /// them in rad); nodes are in the order of the shafts.
@@ -398,6 +401,19 @@ impl Assembly {
         let mut all: Vec<(usize, usize)> = discs.chain(bearings).collect();
         all.sort_unstable();
         all.dedup();
+        all
+    }
+
+    /// Displacements of all coordinates a rad of the input with the whole train turned; `ratios` of all shafts and of the frame in
+    /// space.
+    pub(crate) fn turned(&self, (ratios, frame): (&[f64], f64)) -> DVector<f64> {
+        let places = self.places_of_axes();
+        let mut all = DVector::zeros(self.size());
+        for ((at, line), ratio) in self.lines().zip(ratios) {
+            for node in (0..line.positions().len()).map(|i| at + 6 * i) {
+                (all[node], all[node + 1], all[node + 5]) = (-frame * places[node + 1], frame * places[node], *ratio);
+            }
+        }
         all
     }
 

@@ -3,7 +3,7 @@
 use fem::Condensation;
 use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen, Vector6};
 
-use crate::{Assembly, GearboxError, Structure};
+use crate::{Assembly, GearboxError, Structure, shafts_in_shafts::quarter};
 
 /// Eigenvalue of a stiffness whose diagonal is 1, up to which it is round-off.
 const NOTHING: f64 = 1e-12;
@@ -118,13 +118,4 @@ fn add_pressed_seats(assembly: &Assembly, bent: &DVector<f64>, all: &mut DMatrix
         }
         all[(turn, turn)] -= force[0] * x + force[1] * y;
     }
-}
-
-/// J of six coordinates: (x, y) to (-y, x), and tilts likewise.
-pub(crate) fn quarter() -> Matrix6<f64> {
-    let mut all = Matrix6::zeros();
-    for at in [0, 3] {
-        (all[(at, at + 1)], all[(at + 1, at)]) = (-1.0, 1.0);
-    }
-    all
 }

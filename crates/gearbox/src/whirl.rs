@@ -6,7 +6,7 @@ use faer::{Mat, c64};
 use fem::{Modes, dense::general_eigen, natural_modes};
 use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 
-use crate::{Assembly, GearboxError, ModalEnergy, turning_frame::TurningFrame};
+use crate::{Assembly, GearboxError, ModalEnergy, rigid_motions::NOTHING, turning_frame::TurningFrame};
 
 /// Stiffness over mass, 1/s^2, and mass (t) that no machine has.
 const MOST: f64 = 1e100;
@@ -110,8 +110,33 @@ impl Rotors {
     /// # Errors
     /// The errors of [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for parts that do not exist.
     pub fn holding(assembly: Assembly, held: &Held) -> Result<Self, GearboxError> {
+        Self::beside_turn(assembly, held, None)
+    }
+
+    /// Rotors whose train turns freely by `free`, displacements of all coordinates. Springs and mean tangents hold that a little
+    /// where planets go round under load, for their seats do not turn here:
+    ///
+    /// ```text
+    /// K := P' K P,   P = 1 - r r' M/(r' M r)
+    /// ```
+    pub(crate) fn beside_turn(
+        assembly: Assembly,
+        held: &Held,
+        free: Option<&DVector<f64>>,
+    ) -> Result<Self, GearboxError> {
         assembly.structure().check_linear()?;
-        let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
+        let (mut stiffness, mass) = (assembly.stiffness(), assembly.mass());
+        let mut more = 0;
+        if let Some(r) = free {
+            let (pressed, heavy) = (&stiffness * r, &mass * r);
+            let (work, inertia) = (r.dot(&pressed), r.dot(&heavy));
+            // What is held by round-off alone is counted by the connections.
+            let gross = r.component_mul(r).dot(&stiffness.diagonal());
+            more = usize::from(work.abs() > NOTHING * gross);
+            stiffness.ger(-1.0 / inertia, &heavy, &pressed, 1.0);
+            stiffness.ger(-1.0 / inertia, &pressed, &heavy, 1.0);
+            stiffness.ger(work / inertia / inertia, &heavy, &heavy, 1.0);
+        }
         // Beyond this squares of frequencies are no numbers, and the search for them does not end.
         let steepest = stiffness.amax() / mass.diagonal().min();
         if steepest.is_nan() || steepest > MOST || mass.amax() > MOST {
@@ -128,7 +153,7 @@ impl Rotors {
             let found = natural_modes(&of(&stiffness), &of(&mass))?;
             Modes { shapes: &basis * found.shapes, ..found }
         };
-        let rigid = assembly.rigid_motions(|shaft| held.axes(&assembly, shaft), true);
+        let rigid = more + assembly.rigid_motions(|shaft| held.axes(&assembly, shaft), true);
         told_from_round_off(&rest.frequencies, rigid)?;
         rest.frequencies.iter_mut().take(rigid).for_each(|w| *w = 0.0);
         let damping = rest.shapes.transpose() * assembly.damping() * &rest.shapes;
@@ -207,7 +232,7 @@ impl Rotors {
     pub(crate) fn spin(&self, speeds: &[f64]) -> Result<Spin, GearboxError> {
         let mut gyroscopic = self.assembly.gyroscopic(speeds)?;
         let speed = self.assembly.structure().frame_speed(speeds)?;
-        let modal = |matrix: &DMatrix<f64>| self.rest.shapes.tr_mul(&(matrix * &self.rest.shapes));
+        let modal = |matrix: &DMatrix<f64>| self.rest.shapes.transpose() * matrix * &self.rest.shapes;
         let frame = self.frame.as_ref().filter(|_| speed != 0.0).map(|own| {
             let stiffness = speed * speed * &own.pull + speed * own.tilted(&gyroscopic);
             gyroscopic += speed * &own.coriolis;

@@ -229,7 +229,7 @@ impl ReducedBodies {
 
     /// A matrix of all nodes in reduced coordinates.
     pub(super) fn of_nodes(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        self.basis.tr_mul(&(matrix * &self.basis))
+        self.basis.transpose() * matrix * &self.basis
     }
 
     /// Forces on all nodes on the coordinates.

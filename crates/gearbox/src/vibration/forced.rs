@@ -99,7 +99,10 @@ impl Vibration {
             let (lever, cycles) = (guessed_lever(mesh, meshing)?, (one[i] - start[i]).abs());
             swinging.push(SwingingMesh { discs: mesh.discs, excitation, turn, lever, start: start[i], cycles });
         }
-        let rotors = Rotors::holding(Assembly::new(Structure { elastic_meshes, ..structure })?, held)?;
+        let assembly = Assembly::new(Structure { elastic_meshes, ..structure })?;
+        let turns = assembly.structure().fixed.is_some() && held.turns.is_empty();
+        let free = turns.then(|| assembly.turned((train.ratios_in_space(), train.frame_ratio())));
+        let rotors = Rotors::beside_turn(assembly, held, free.as_ref())?;
         let ratios = train.ratios_in_space().iter().map(|r| r * sense.sign() as f64).collect();
         Ok(Self { rotors, ratios, meshes: swinging })
     }

@@ -111,7 +111,7 @@ fn any_member_is_input_output_or_fixed_in_motion() {
     ];
     for (roles, drive) in all {
         let mut mechanism = mechanism(Stage { off: 2e-3, ..STAGE }, roles, drive, TORQUE, &varying());
-        let (rows, done) = run(&mut mechanism, 20);
+        let (rows, done) = run(&mut mechanism, testing::cases(8, 20) as u64);
         let energy = done.energy;
         let said = format!("{roles:?}, {drive:?}: {energy:?}");
         assert!(energy.relative_residual.abs() < 1e-9, "{said}");

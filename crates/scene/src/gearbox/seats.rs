@@ -30,16 +30,6 @@ pub(super) fn seats(
                 "leave the stiffness of that turn out, or let the shaft stand (`stands = true`), or be `fixed`",
             );
         }
-        if fixed.is_some() && own.in_shaft.is_none() && !own.is_round() {
-            let said = format!(
-                "\"{}\" in the housing is not the same all round, and the housing turns against the carrier",
-                own.name
-            );
-            return wrong(
-                said,
-                "with a `fixed` shaft give x and y one stiffness, and no offset of the seat across the axis",
-            );
-        }
         if let (Some(axis), None) = (fixed, own.in_shaft) {
             let [axis, inner] = [axis, own.shaft].map(|shaft| &shafts[shaft]);
             let arm = (inner.origin[0] - axis.origin[0]).hypot(inner.origin[1] - axis.origin[1]);
@@ -56,6 +46,16 @@ pub(super) fn seats(
                     "seat it in the carrier or a pin with `in_shaft`; a stage of parallel shafts behind the planets goes into a file of its own",
                 );
             }
+        }
+        if fixed.is_some() && own.in_shaft.is_none() && !own.is_round() {
+            let said = format!(
+                "\"{}\" in the housing is not the same all round, and the housing turns against the carrier",
+                own.name
+            );
+            return wrong(
+                said,
+                "with a `fixed` shaft give x and y one stiffness, and no offset of the seat across the axis",
+            );
         }
         let Some(seat) = own.in_shaft else { continue };
         let [inner, outer] = [own.shaft, seat].map(|shaft| &shafts[shaft]);
