@@ -331,6 +331,15 @@ impl ContactSet {
         Some([0, 1].map(|i| boundary_forces(rows, forces, i, windows[i].reduced.coordinates())))
     }
 
+    /// X F of slices, mm: what their rows open beside the matrices of both gears under forces F (N), without the local
+    /// approach; negative, for it is what the matrices have of the half teeth. Zero for contact of points. Theory (38).
+    pub fn beside_matrices(&self, rows: &[ContactRow], forces: &[f64]) -> Vec<f64> {
+        let Some(slices) = &self.shared.slices else { return vec![0.0; rows.len()] };
+        let correction = slices.correction(rows);
+        let of_row = |i: usize| forces.iter().enumerate().map(|(j, f)| correction[(i, j)] * f).sum();
+        (0..rows.len()).map(of_row).collect()
+    }
+
     /// S between rows, mm/N, column by column, from the matrices as they are.
     pub(crate) fn exact_compliance(&self, rows: &[ContactRow], out: &mut Vec<f64>) {
         out.clear();

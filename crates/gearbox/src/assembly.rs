@@ -3,7 +3,10 @@
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
 use nalgebra::{ComplexField, DMatrix, DVector, Matrix6};
 
-use crate::{Disc, ElasticBody, GearboxError, Structure, Supports, shafts_in_shafts::rigid};
+use crate::{
+    Disc, ElasticBody, GearboxError, Structure, Supports,
+    shafts_in_shafts::{quarter, rigid},
+};
 
 /// A structure divided into beam elements. Each node has six coordinates (displacements x, y, z in mm, rotations about
 /// them in rad); nodes are in the order of the shafts.
@@ -359,6 +362,71 @@ impl Assembly {
             }
         }
         Ok(g)
+    }
+
+    /// Damping of the bearings that are seated in no shaft.
+    pub(crate) fn damping_in_space(&self) -> DMatrix<f64> {
+        let mut own = self.supports.damping.clone();
+        for (i, _) in self.structure.bearings.iter().enumerate().filter(|(_, bearing)| bearing.outer.is_some()) {
+            own.rows_mut(6 * i, 6).fill(0.0);
+            own.columns_mut(6 * i, 6).fill(0.0);
+        }
+        let mut c = DMatrix::zeros(self.size(), self.size());
+        self.add_supports(&mut c, &own);
+        c
+    }
+
+    /// J: all coordinates turned by a right angle about z, per rad of a turn of their axes. Theory (86b).
+    pub(crate) fn quarter_turn(&self) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.size(), self.size());
+        for at in (0..self.modes_at()).step_by(6) {
+            all.fixed_view_mut::<6, 6>(at, at).copy_from(&quarter());
+        }
+        for (at, _, body) in self.bodies() {
+            // Patterns count from axes that turn: the gear's frame falls back.
+            all.view_mut((at, at), body.turning.shape()).copy_from(&-&body.turning);
+        }
+        all
+    }
+
+    /// First coordinates of the nodes of discs and bearings, each once and ascending, and their shafts.
+    pub(crate) fn seat_nodes(&self) -> Vec<(usize, usize)> {
+        let structure = &self.structure;
+        let discs = structure.discs.iter().zip(&self.discs).map(|(d, at)| (*at, d.shaft));
+        let ends = |(i, b): (usize, &crate::Bearing)| {
+            let shafts = [Some(b.shaft), b.outer].into_iter().flatten();
+            self.bearing_ends(i).map(|(node, _)| node).zip(shafts).collect::<Vec<_>>()
+        };
+        let bearings = structure.bearings.iter().enumerate().flat_map(ends);
+        let mut all: Vec<(usize, usize)> = discs.chain(bearings).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Displacements of all coordinates a rad of the input with the whole train turned; `ratios` of all shafts and of the frame in
+    /// space.
+    pub(crate) fn turned(&self, (ratios, frame): (&[f64], f64)) -> DVector<f64> {
+        let places = self.places_of_axes();
+        let mut all = DVector::zeros(self.size());
+        for ((at, line), ratio) in self.lines().zip(ratios) {
+            for node in (0..line.positions().len()).map(|i| at + 6 * i) {
+                (all[node], all[node + 1], all[node + 5]) = (-frame * places[node + 1], frame * places[node], *ratio);
+            }
+        }
+        all
+    }
+
+    /// Place of every node's axis from the axis of the frame, as displacements of all coordinates, mm. Theory (86b).
+    pub(crate) fn places_of_axes(&self) -> DVector<f64> {
+        let mut all = DVector::zeros(self.size());
+        let Some(axis) = self.structure.fixed.map(|shaft| self.structure.shafts[shaft].origin) else { return all };
+        for (shaft, (at, line)) in self.structure.shafts.iter().zip(self.lines()) {
+            for i in 0..line.positions().len() {
+                (0..2).for_each(|k| all[at + 6 * i + k] = shaft.origin[k] - axis[k]);
+            }
+        }
+        all
     }
 
     fn of_shafts(&self, matrix: impl Fn(&BeamLine) -> &DMatrix<f64>) -> DMatrix<f64> {

@@ -28,6 +28,8 @@ pub struct ElasticBody {
     pub coupling: DMatrix<f64>,
     /// Gyroscopic matrix G, m x m, skew-symmetric.
     pub gyroscopic: DMatrix<f64>,
+    /// How patterns turn in the gear's frame, N, m x m, skew-symmetric: q = e^(theta N) p. Zero where they do not.
+    pub turning: DMatrix<f64>,
     /// Gyroscopic coupling A with the rigid motion, 6 x m.
     pub rigid_gyroscopic: DMatrix<f64>,
 }
@@ -45,12 +47,14 @@ impl ElasticBody {
                 disc,
                 squares,
                 coupling: modes.coupling_at(0.0),
+                turning: standing.rate(),
                 gyroscopic: standing.gyroscopic,
                 rigid_gyroscopic: standing.coupling,
             },
             None => {
                 let (gyroscopic, rigid_gyroscopic) = (DMatrix::zeros(m, m), DMatrix::zeros(6, m));
-                Self { disc, squares, coupling: modes.coupling_at(angle), gyroscopic, rigid_gyroscopic }
+                let (turning, coupling) = (gyroscopic.clone(), modes.coupling_at(angle));
+                Self { disc, squares, coupling, gyroscopic, turning, rigid_gyroscopic }
             }
         }
     }
@@ -67,6 +71,7 @@ impl ElasticBody {
         let sizes = [
             (self.coupling.shape(), (m, 6)),
             (self.gyroscopic.shape(), (m, m)),
+            (self.turning.shape(), (m, m)),
             (self.rigid_gyroscopic.shape(), (6, m)),
         ];
         if let Some((found, wanted)) = sizes.into_iter().find(|(found, wanted)| found != wanted) {

@@ -100,6 +100,12 @@ pub enum GearboxError {
         /// Smallest eigenvalue of the remaining inertia, relative to the disc's own inertia.
         share: f64,
     },
+    /// Elastic modes in a motion that is seen from a carrier that turns.
+    #[error("gear {gear} keeps elastic modes in a motion whose frame turns with a carrier")]
+    ModesInFrame {
+        /// Name of the gear.
+        gear: String,
+    },
     /// A gear of which the mesh has only a part, or that two meshes describe differently.
     #[error("gear {gear} cannot have elastic modes: {said}")]
     NoModes {
@@ -471,6 +477,7 @@ impl GearboxError {
             Self::LessThanModes { .. } => {
                 "leave `mass_kg` and the inertias of the gear out: its mesh has them; or keep fewer modes"
             }
+            Self::ModesInFrame { .. } => "leave the modes out, or let the carrier be the fixed member",
             Self::NoModes { .. } => {
                 "mesh the whole gear or one periodic sector (`sector_teeth = 1`), the same in all scenes that it is in"
             }

@@ -38,15 +38,6 @@ pub struct ExactMesh {
     roots: Option<RootStress>,
 }
 
-/// Forces of a mesh on the nodes of one of its gears, in the frame of its matrices.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FlankForces {
-    /// Angle of that frame from +x, rad: for alike teeth, the first tooth of the matrices counts whichever it is.
-    pub angle: f64,
-    /// Nodes of the mesh and forces on them, N.
-    pub forces: Vec<(u32, [f64; 3])>,
-}
-
 /// Overlap over that of the last evaluation up to which the search is narrow.
 const REACH: f64 = 1.25;
 
@@ -151,21 +142,6 @@ impl ExactMesh {
         let window = self.window.window();
         let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
         self.poses = displaced(nominal, &(*d).into());
-    }
-
-    /// Forces of the last evaluation on the nodes of both gears, in a gearbox whose mesh has this direction (rad).
-    pub(crate) fn flank_forces(&self, direction: f64) -> Option<[FlankForces; 2]> {
-        let (contact, set) = (&self.contact, self.contact.contact_set());
-        let forces = contact.solver().forces();
-        let rows = set.supported_rows(&self.poses, contact.rows(), contact.slices(), forces);
-        let found = set.forces_of(&rows, forces)?;
-        let windows = set.windows()?;
-        Some([0, 1].map(|end| {
-            let on = found[end].chunks_exact(3).map(|f| [f[0], f[1], f[2]]);
-            let forces =
-                windows[end].reduced.nodes.iter().copied().zip(on).filter(|(_, f)| f.iter().any(|x| *x != 0.0));
-            FlankForces { angle: direction + self.frame_angle(end), forces: forces.collect() }
-        }))
     }
 
     /// Angle of the frame of a gear's matrices from the mesh's own +x where nothing has moved, rad.

@@ -64,8 +64,27 @@ struct SharedGear {
     ends: [usize; 2],
     /// Directions of both meshes, rad.
     directions: [f64; 2],
-    /// Compliances between its windows by where these stand.
-    known: Vec<([u32; 2], Mat<f64>)>,
+    /// Compliances between its windows, the last one as these stand.
+    known: Vec<Arc<Known>>,
+}
+
+/// Compliance between two windows of a gear: planets have it in common, and so have places as far apart on sun and ring.
+struct Known {
+    /// Where the windows stand.
+    key: [u32; 2],
+    /// Gears of both meshes, which of them it is, and its windows.
+    of: [(Arc<[ElasticGear; 2]>, usize, Window); 2],
+    compliance: Mat<f64>,
+}
+
+impl Known {
+    /// Whether it is that of other windows as well.
+    fn is(&self, key: [u32; 2], of: &[(Arc<[ElasticGear; 2]>, usize, Window); 2]) -> bool {
+        let same = |a: &(Arc<[ElasticGear; 2]>, usize, Window), b: &(Arc<[ElasticGear; 2]>, usize, Window)| {
+            Arc::ptr_eq(&a.0, &b.0) && a.1 == b.1 && Arc::ptr_eq(&a.2.reduced, &b.2.reduced)
+        };
+        self.key == key && self.of.iter().zip(of).all(|(a, b)| same(a, b))
+    }
 }
 
 impl JoinedMeshes {
@@ -127,9 +146,11 @@ impl JoinedMeshes {
         let mut exact: Vec<&mut ExactMesh> =
             joined.filter_map(|(_, element)| element.to_join()?.downcast_mut()).collect();
         exact.iter_mut().zip(own.iter()).for_each(|(mesh, &i)| mesh.place(&displacements[i]));
-        for gear in gears.iter_mut() {
+        for k in 0..gears.len() {
+            let others: Vec<Arc<Known>> = gears.iter().flat_map(|gear| &gear.known).cloned().collect();
+            let gear = &mut gears[k];
             let of = gear.contacts.map(|k| &*exact[k]);
-            gear.find(of).map_err(|source| at_mesh(&meshes[own[gear.contacts[1]]], source))?;
+            gear.find(of, &others).map_err(|source| at_mesh(&meshes[own[gear.contacts[1]]], source))?;
         }
         for bore in bores.iter_mut() {
             stand(bore, (&exact, directions), (structure, supports))
@@ -266,7 +287,7 @@ fn stand(
 impl SharedGear {
     /// Makes the compliance between the windows of the gear in two meshes, where it is not known; the last one is that of the
     /// windows as they stand.
-    fn find(&mut self, meshes: [&ExactMesh; 2]) -> Result<(), GearboxError> {
+    fn find(&mut self, meshes: [&ExactMesh; 2], others: &[Arc<Known>]) -> Result<(), GearboxError> {
         let gear = ["pinion", "wheel"][self.ends[1]];
         let failed = |source| GearboxError::from(StaticError::from(ContactError::Reduction { gear, source }));
         let [(a, own), (b, theirs)] = match [reduced(meshes[0], self.ends[0]), reduced(meshes[1], self.ends[1])] {
@@ -287,13 +308,19 @@ impl SharedGear {
             let first = [own, theirs].map(|window| window.reduced.teeth.first().copied().unwrap_or(0));
             (first, [own.shift, theirs.shift])
         };
-        let last = match self.known.iter().position(|known| known.0 == key) {
+        let at = |window: &Window, shift: u32| Window { reduced: Arc::clone(&window.reduced), shift };
+        let [own, theirs] = [at(own, shifts[0]), at(theirs, shifts[1])];
+        let [first, second] = meshes.map(|mesh| Arc::clone(&mesh.gears));
+        let of = [(first, self.ends[0], own), (second, self.ends[1], theirs)];
+        let last = match self.known.iter().position(|known| known.is(key, &of)) {
             Some(at) => self.known.remove(at),
-            None => {
-                let at = |window: &Window, shift: u32| Window { reduced: Arc::clone(&window.reduced), shift };
-                let [own, theirs] = [at(own, shifts[0]), at(theirs, shifts[1])];
-                (key, a.compliance_between(&own, (b, &theirs)).map_err(failed)?)
-            }
+            None => match others.iter().find(|known| known.is(key, &of)) {
+                Some(known) => Arc::clone(known),
+                None => {
+                    let compliance = a.compliance_between(&of[0].2, (b, &of[1].2)).map_err(failed)?;
+                    Arc::new(Known { key, of, compliance })
+                }
+            },
         };
         if self.known.len() == KEPT {
             self.known.remove(0);
@@ -303,7 +330,7 @@ impl SharedGear {
     }
 
     fn common(&self) -> Option<CommonGear<'_>> {
-        let compliance = self.known.last()?.1.as_ref();
+        let compliance = self.known.last()?.compliance.as_ref();
         Some(CommonGear { contacts: self.contacts, bodies: self.ends, compliance })
     }
 }

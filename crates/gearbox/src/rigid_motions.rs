@@ -9,7 +9,7 @@ use crate::Assembly;
 
 /// Eigenvalue of a stiffness whose diagonal is 1, up to which it is round-off: springs that differ by thirteen decades do
 /// not meet in one machine.
-const NOTHING: f64 = 1e-13;
+pub(crate) const NOTHING: f64 = 1e-13;
 
 impl Assembly {
     /// Number of independent motions of all shafts, each rigid, that bearings, housing and (`with_meshes`) meshes do not

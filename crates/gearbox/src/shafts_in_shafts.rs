@@ -118,3 +118,12 @@ pub(crate) fn rigid([x, y, z]: [f64; 3]) -> Matrix6<f64> {
     arm.into_iter().for_each(|(i, j, r)| moves[(i, j)] = r);
     moves
 }
+
+/// J of six coordinates: (x, y) to (-y, x), and tilts likewise.
+pub(crate) fn quarter() -> Matrix6<f64> {
+    let mut all = Matrix6::zeros();
+    for at in [0, 3] {
+        (all[(at, at + 1)], all[(at + 1, at)]) = (-1.0, 1.0);
+    }
+    all
+}

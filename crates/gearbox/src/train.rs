@@ -53,6 +53,7 @@ pub struct Train {
     ratios: Vec<f64>,
     in_space: Vec<f64>,
     counted: Vec<[f64; 2]>,
+    frame: f64,
 }
 
 /// Relative difference of distances, ratios and angles that is round-off of their input.
@@ -145,7 +146,7 @@ impl Train {
             })
         };
         let counted = meshes.iter().zip(&meshing).map(counted).collect();
-        Ok(Self { meshes: meshing, middles, ratios, in_space, counted })
+        Ok(Self { meshes: meshing, middles, ratios, in_space, counted, frame: carrier })
     }
 
     /// Running of each mesh, in their order.
@@ -169,6 +170,11 @@ impl Train {
     /// the rotation of the carrier.
     pub fn ratios_in_space(&self) -> &[f64] {
         &self.in_space
+    }
+
+    /// Rotations of the frame of the carrier in space per rotation of the input shaft; 0 if no shaft is fixed in space.
+    pub fn frame_ratio(&self) -> f64 {
+        self.frame
     }
 
     /// Mesh cycles of each mesh with the input shaft rotated by `angle` (rad about +z) from its start. Whole cycles

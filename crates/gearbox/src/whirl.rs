@@ -4,12 +4,14 @@ use std::ops::Range;
 
 use faer::{Mat, c64};
 use fem::{Modes, dense::general_eigen, natural_modes};
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 
-use crate::{Assembly, GearboxError, ModalEnergy};
+use crate::{Assembly, GearboxError, ModalEnergy, rigid_motions::NOTHING, turning_frame::TurningFrame};
 
 /// Stiffness over mass, 1/s^2, and mass (t) that no machine has.
 const MOST: f64 = 1e100;
+/// Work of a turning frame on a free motion over the most that it does, up to which it is round-off.
+const FREE: f64 = 1e-8;
 /// Share of a mode's kinetic energy up to which that of a shaft across its axis is round-off.
 const LATERAL: f64 = 1e-6;
 
@@ -58,6 +60,16 @@ pub struct Rotors {
     pub(crate) damping: DMatrix<f64>,
     /// Damping in the modes at rest that gives each of them the ratio 1: 2 W, 1/s.
     pub(crate) unit_damping: DMatrix<f64>,
+    /// What a frame that turns adds, where a shaft is fixed in space.
+    frame: Option<TurningFrame>,
+}
+
+/// What speeds add in the modes at rest.
+pub(crate) struct Spin {
+    /// Gyroscopic matrix, 1/s; skew-symmetric.
+    pub rates: DMatrix<f64>,
+    /// Stiffness and circulatory matrix by a frame that turns, 1/s^2.
+    pub frame: Option<[DMatrix<f64>; 2]>,
 }
 
 /// Held parts: parts that do not move, or move as a whole.
@@ -98,8 +110,33 @@ impl Rotors {
     /// # Errors
     /// The errors of [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for parts that do not exist.
     pub fn holding(assembly: Assembly, held: &Held) -> Result<Self, GearboxError> {
+        Self::beside_turn(assembly, held, None)
+    }
+
+    /// Rotors whose train turns freely by `free`, displacements of all coordinates. Springs and mean tangents hold that a little
+    /// where planets go round under load, for their seats do not turn here:
+    ///
+    /// ```text
+    /// K := P' K P,   P = 1 - r r' M/(r' M r)
+    /// ```
+    pub(crate) fn beside_turn(
+        assembly: Assembly,
+        held: &Held,
+        free: Option<&DVector<f64>>,
+    ) -> Result<Self, GearboxError> {
         assembly.structure().check_linear()?;
-        let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
+        let (mut stiffness, mass) = (assembly.stiffness(), assembly.mass());
+        let mut more = 0;
+        if let Some(r) = free {
+            let (pressed, heavy) = (&stiffness * r, &mass * r);
+            let (work, inertia) = (r.dot(&pressed), r.dot(&heavy));
+            // What is held by round-off alone is counted by the connections.
+            let gross = r.component_mul(r).dot(&stiffness.diagonal());
+            more = usize::from(work.abs() > NOTHING * gross);
+            stiffness.ger(-1.0 / inertia, &heavy, &pressed, 1.0);
+            stiffness.ger(-1.0 / inertia, &pressed, &heavy, 1.0);
+            stiffness.ger(work / inertia / inertia, &heavy, &heavy, 1.0);
+        }
         // Beyond this squares of frequencies are no numbers, and the search for them does not end.
         let steepest = stiffness.amax() / mass.diagonal().min();
         if steepest.is_nan() || steepest > MOST || mass.amax() > MOST {
@@ -116,7 +153,7 @@ impl Rotors {
             let found = natural_modes(&of(&stiffness), &of(&mass))?;
             Modes { shapes: &basis * found.shapes, ..found }
         };
-        let rigid = assembly.rigid_motions(|shaft| held.axes(&assembly, shaft), true);
+        let rigid = more + assembly.rigid_motions(|shaft| held.axes(&assembly, shaft), true);
         told_from_round_off(&rest.frequencies, rigid)?;
         rest.frequencies.iter_mut().take(rigid).for_each(|w| *w = 0.0);
         let damping = rest.shapes.transpose() * assembly.damping() * &rest.shapes;
@@ -124,7 +161,8 @@ impl Rotors {
             rest.frequencies.len(),
             rest.frequencies.iter().map(|w| 2.0 * w),
         ));
-        Ok(Self { assembly, stiffness, mass, rest, damping, unit_damping })
+        let frame = TurningFrame::of(&assembly, &mass)?;
+        Ok(Self { assembly, stiffness, mass, rest, damping, unit_damping, frame })
     }
 
     /// The assembly.
@@ -137,24 +175,34 @@ impl Rotors {
         &self.rest
     }
 
-    /// Natural modes with the shafts spinning at `speeds` (rad/s about +z, one per shaft).
+    /// Natural modes with the shafts spinning at `speeds` in space (rad/s about +z, one per shaft).
     ///
     /// ```text
     /// q = Phi eta,   d/dt [W eta; eta'] = [0, W; -W, -Phi'(C + G) Phi] [W eta; eta']      W = diag(omega) at rest
     /// ```
-    /// Without damping this matrix is skew-symmetric, and its eigenvalues lie on the imaginary axis to round-off.
+    /// Without damping this matrix is skew-symmetric, and its eigenvalues lie on the imaginary axis to round-off. Where a
+    /// shaft is fixed in space ([`Structure::fixed`](crate::Structure::fixed)), all is seen in the frame of the carrier, which
+    /// turns as the shafts that stand in it do; theory (86b). W^2 is then that matrix with what the frame adds, in its own
+    /// axes; a negative square has the other sign in the lower row.
     ///
     /// # Errors
-    /// [`GearboxError::Count`], [`GearboxError::OutOfRange`], [`GearboxError::Matrix`].
+    /// [`GearboxError::Count`], [`GearboxError::OutOfRange`], also where shafts that stand have several speeds;
+    /// [`GearboxError::Matrix`].
     pub fn whirl_modes(&self, speeds: &[f64]) -> Result<WhirlModes, GearboxError> {
-        let spin = self.spin(speeds)?;
+        let Spin { rates, frame } = self.spin(speeds)?;
         let n = self.rest.frequencies.len();
-        let omega = &self.rest.frequencies;
+        let rates = &self.damping + rates;
+        let Stiffened { axes, squares, rates, circulating } = Stiffened::of(&self.rest.frequencies, rates, frame);
+        let omega: Vec<f64> = squares.iter().map(|s| s.abs().sqrt()).collect();
         let state = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => 0.0,
             (true, false) if j - n == i => omega[i],
-            (false, true) if i - n == j => -omega[j],
-            (false, false) => -(self.damping[(i - n, j - n)] + spin[(i - n, j - n)]),
+            (false, true) => {
+                let own = if i - n == j { -squares[j].signum() * omega[j] } else { 0.0 };
+                let dragged = circulating.as_ref().filter(|_| omega[j] > 0.0);
+                own - dragged.map_or(0.0, |c| c[(i - n, j)] / omega[j])
+            }
+            (false, false) => -rates[(i - n, j - n)],
             _ => 0.0,
         });
         let (values, vectors) = general_eigen(state.as_ref())?;
@@ -165,8 +213,12 @@ impl Rotors {
             if value.norm() <= small {
                 found.zeros += 1;
             } else if value.im > small {
-                let velocity = DVector::from_fn(n, |i, _| complex(vectors[(n + i, j)] / *value));
-                found.modes.push(self.mode(*value, &velocity, speeds));
+                let mut eta = DVector::from_fn(n, |i, _| complex(vectors[(n + i, j)] / *value));
+                if let Some(axes) = &axes {
+                    let [re, im] = [eta.map(|x| x.re), eta.map(|x| x.im)].map(|part| axes * part);
+                    eta = DVector::from_fn(n, |i, _| Complex::new(re[i], im[i]));
+                }
+                found.modes.push(self.mode(*value, &eta, speeds));
             } else if value.im.abs() <= small {
                 found.decaying.push(-value.re);
             }
@@ -176,12 +228,21 @@ impl Rotors {
         Ok(found)
     }
 
-    /// Gyroscopic matrix in the modes at rest.
-    pub(crate) fn spin(&self, speeds: &[f64]) -> Result<DMatrix<f64>, GearboxError> {
-        let gyroscopic = self.assembly.gyroscopic(speeds)?;
-        let spin = self.rest.shapes.transpose() * gyroscopic * &self.rest.shapes;
+    /// What speeds in space add in the modes at rest. Theory (86b).
+    pub(crate) fn spin(&self, speeds: &[f64]) -> Result<Spin, GearboxError> {
+        let mut gyroscopic = self.assembly.gyroscopic(speeds)?;
+        let speed = self.assembly.structure().frame_speed(speeds)?;
+        let modal = |matrix: &DMatrix<f64>| self.rest.shapes.transpose() * matrix * &self.rest.shapes;
+        let frame = self.frame.as_ref().filter(|_| speed != 0.0).map(|own| {
+            let stiffness = speed * speed * &own.pull + speed * own.tilted(&gyroscopic);
+            gyroscopic += speed * &own.coriolis;
+            let n = self.rest.frequencies.len();
+            let dragged = own.dragged.as_ref().map_or_else(|| DMatrix::zeros(n, n), |c| speed * modal(c));
+            [modal(&stiffness), dragged]
+        });
+        let rates = modal(&gyroscopic);
         // Skew-symmetric to the last bit: no damping by round-off.
-        Ok(0.5 * (&spin - spin.transpose()))
+        Ok(Spin { rates: 0.5 * (&rates - rates.transpose()), frame })
     }
 
     fn mode(&self, value: c64, eta: &DVector<Complex<f64>>, speeds: &[f64]) -> WhirlMode {
@@ -215,6 +276,61 @@ impl Rotors {
             if *speed == 0.0 || across <= LATERAL || square == 0.0 { 0.0 } else { speed.signum() * area / square }
         };
         self.assembly.lines().zip(speeds).map(of_shaft).collect()
+    }
+}
+
+/// Squares of frequencies with what a frame adds, in the axes of both together.
+struct Stiffened {
+    /// Axes by the modes at rest; `None`: those themselves.
+    axes: Option<DMatrix<f64>>,
+    /// (rad/s)^2; negative where the frame turns faster than a mode swings.
+    squares: Vec<f64>,
+    /// Damping and gyroscopic matrix, 1/s.
+    rates: DMatrix<f64>,
+    /// Circulatory matrix by dampers in space, 1/s^2.
+    circulating: Option<DMatrix<f64>>,
+}
+
+/// Number of free motions on which the frame does no work. Each stays free beside what it does to the others, of which squares have more
+/// than the second order of its speed:
+///
+/// ```text
+/// D_rr := D_rk (W^2 + D)_kk^-1 D_kr      r: those motions; k: the others
+/// ```
+fn keep_free(omega: &[f64], stiffness: &mut DMatrix<f64>) -> usize {
+    *stiffness = 0.5 * (&*stiffness + stiffness.transpose());
+    let most = stiffness.amax();
+    let is_free = |i: &usize| omega[*i] == 0.0 && stiffness[(*i, *i)].abs() < FREE * most;
+    let (free, held): (Vec<usize>, Vec<usize>) = (0..omega.len()).partition(is_free);
+    let own = |i: usize, j: usize| if i == j { omega[i] * omega[i] } else { 0.0 };
+    let k = DMatrix::from_fn(held.len(), held.len(), |i, j| own(held[i], held[j]) + stiffness[(held[i], held[j])]);
+    let across = DMatrix::from_fn(held.len(), free.len(), |i, j| stiffness[(held[i], free[j])]);
+    let Some(followed) = k.lu().solve(&across) else { return 0 };
+    let block = across.tr_mul(&followed);
+    for (i, r) in free.iter().enumerate() {
+        free.iter().enumerate().for_each(|(j, s)| stiffness[(*r, *s)] = 0.5 * (block[(i, j)] + block[(j, i)]));
+    }
+    free.len()
+}
+
+impl Stiffened {
+    fn of(omega: &[f64], rates: DMatrix<f64>, frame: Option<[DMatrix<f64>; 2]>) -> Self {
+        let squares: Vec<f64> = omega.iter().map(|w| w * w).collect();
+        let Some([mut stiffness, circulating]) = frame else {
+            return Self { axes: None, squares, rates, circulating: None };
+        };
+        let free = keep_free(omega, &mut stiffness);
+        squares.iter().enumerate().for_each(|(i, square)| stiffness[(i, i)] += square);
+        let found = SymmetricEigen::new(stiffness);
+        let (axes, mut squares) = (found.eigenvectors, found.eigenvalues.as_slice().to_vec());
+        // Of what stays free there is no square, not even round-off.
+        let mut order: Vec<usize> = (0..squares.len()).collect();
+        order.sort_by(|a, b| squares[*a].abs().total_cmp(&squares[*b].abs()));
+        order[..free].iter().for_each(|i| squares[*i] = 0.0);
+        let turned = |matrix: &DMatrix<f64>| axes.tr_mul(&(matrix * &axes));
+        let (rates, circulating) = (turned(&rates), turned(&circulating));
+        let circulating = (circulating.amax() > 0.0).then_some(circulating);
+        Self { squares, rates, circulating, axes: Some(axes) }
     }
 }
 

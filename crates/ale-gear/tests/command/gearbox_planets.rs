@@ -30,6 +30,37 @@ fn a_planetary_stage_vibrates() {
     assert!(campbell.contains("shaft_4") && !campbell.contains("shaft_5"), "{campbell}");
 }
 
+/// So does one whose ring is fixed, in the frame of its carrier that turns, and it moves: the lowest mode is elastic, for the
+/// train turns freely, and what a motion stores and takes is accounted for. What stands beside the axis of the stage in space,
+/// which turns against the carrier, is refused.
+#[test]
+fn a_stage_with_a_fixed_ring_vibrates_and_moves() {
+    let text = std::fs::read_to_string(repository().join("scenes/gearbox/planetary_stage_ring_fixed.toml")).unwrap();
+    let vibration = "[vibration]\nfrom_rpm = 500.0\nto_rpm = 6000.0\nspeeds = 3\norders = 2\n";
+    let motion = "[motion]\nspeed_rpm = 3000.0\nmesh = \"spring\"\ncycles = 4\nsteps_per_cycle = 80\n";
+    let beside = "[[shaft]]\nname = \"beside\"\norigin_mm = [300.0, 0.0, 0.0]\n[[shaft.section]]\nlength_mm = 50.0\n\
+                  outer_diameter_mm = 30.0\n[[bearing]]\nname = \"of beside\"\nshaft = \"beside\"\nposition_mm = 10.0\n\
+                  stiffness_n_per_mm = [1e5, 1e5, 1e5]\n";
+    let scratch = Scratch::new()
+        .file("vibration.toml", text.clone() + vibration)
+        .file("motion.toml", text.clone() + motion)
+        .file("beside.toml", text + beside);
+    let set = "analysis.positions_per_cycle=4";
+    let run = scratch.ale_gear(["run", "vibration.toml", "--out", "v", "--set", set]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let campbell = scratch.read("v/campbell.csv");
+    let lowest: Vec<f64> =
+        campbell.lines().skip(1).map(|row| row.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert!(lowest.len() == 3 && lowest.iter().all(|hz| *hz > 100.0), "{campbell}");
+    // Two modes of the ring's bearings part as the frame turns.
+    assert!(lowest[2] < 0.98 * lowest[0], "{lowest:?}");
+    let run = scratch.ale_gear(["run", "motion.toml", "--out", "m"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let run = scratch.ale_gear(["run", "beside.toml", "--out", "b"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("seen from the carrier that place turns"), "{}", run.stderr);
+}
+
 /// Torques that no teeth can carry are refused before any work, whichever member of a stage is held.
 #[test]
 fn torques_beyond_all_teeth_are_refused() {

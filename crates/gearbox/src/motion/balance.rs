@@ -51,6 +51,9 @@ impl GearboxMechanism {
                 }
             }
         }
+        if let Some(frame) = &self.frame {
+            frame.add([q, v], speed, self.free.turn, out);
+        }
         let mut load = |size: f64, along: &DVector<f64>| {
             loops::add(size, along, &mut out.other);
             out.supplied += size * loops::along(along, v);

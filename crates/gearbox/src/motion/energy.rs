@@ -85,7 +85,8 @@ impl GearboxMechanism {
             let of = |s: &State| self.nominal_turn(s.time);
             let along = |s: &State| {
                 let [_, omega] = of(s);
-                omega * self.momentum.dot(&s.v) + 0.5 * omega * omega * inertia
+                let by_frame = self.frame.as_ref().map_or(0.0, |own| own.kinetic([&s.q, &s.v], omega));
+                omega * self.momentum.dot(&s.v) + 0.5 * omega * omega * inertia + by_frame
             };
             let nominal = self.outputs.dot(&self.free.rigid) * (of(state)[0] - of(start)[0]);
             let shift = along(state) - along(start);

@@ -10,8 +10,8 @@ use crate::{Assembly, Operation, Train};
 /// ```text
 /// y = B z + r psi,   theta of shaft i = ratio_i psi + deviation
 /// ```
-/// psi: turn of the input, given with time or a coordinate of its own; r turns all shafts by their ratios. All other
-/// coordinates are deviations from that, so that they keep their digits however far the shafts have turned. The input has
+/// psi: turn of the input, given with time or a coordinate of its own; r turns all shafts by their ratios in space, and with
+/// the frame of a carrier the axes of its planets. All other coordinates are deviations from that, so that they keep their digits however far the shafts have turned. The input has
 /// none of its own; where its torque balances, all are such that they have no momentum along r:
 ///
 /// ```text
@@ -57,11 +57,12 @@ impl FreeCoordinates {
         let along = |of: &dyn Fn(usize) -> f64| {
             DVector::from_fn(n, |i, _| if bodies.axis(i) == Some(5) { of(bodies.shaft(i)) } else { 0.0 })
         };
-        let mut rigid = along(&|shaft| train.ratios()[shaft]);
+        let mut rigid = along(&|shaft| train.ratios_in_space()[shaft]);
+        rigid += bodies.by_frame(assembly) * train.frame_ratio();
         for (i, own) in rigid.iter_mut().enumerate() {
             // A turn of the whole train deforms no gear.
             if let Some(by_turn) = bodies.by_turn(i) {
-                *own = by_turn * train.ratios()[bodies.shaft(i)];
+                *own = by_turn * train.ratios_in_space()[bodies.shaft(i)];
             }
         }
         let mut input = DVector::zeros(n);

@@ -37,7 +37,7 @@ pub struct GearboxInstant {
     pub input: [f64; 2],
     /// Torque on the input, N mm about +z: the given torque, or the one that maintains the given speed.
     pub input_torque: f64,
-    /// Speeds of the discs that have torques, rad/s about +z.
+    /// Speeds of the discs that have torques in space, rad/s about +z.
     pub output_speeds: Vec<f64>,
     /// Meshes in their order.
     pub meshes: Vec<MeshInstant>,
@@ -90,7 +90,7 @@ impl GearboxMechanism {
         let speed_of = |torque: &crate::Torque| {
             let shaft = self.assembly.structure().discs[torque.disc].shaft;
             let own = self.assembly.disc(torque.disc).map_or(0.0, |n| rates[self.bodies.of_node(n) + 5]);
-            self.train.ratios()[shaft] * input[1] + own
+            self.train.ratios_in_space()[shaft] * input[1] + own
         };
         let output_speeds = self.operation.torques.iter().map(speed_of).collect();
         let bearings = self.bearing_states(q, &y, &rates)?;
@@ -148,13 +148,16 @@ impl GearboxMechanism {
                 self.free.input[*i] != 0.0
             }
         };
-        // No gyroscopic moment acts about the axis.
+        let speed = self.nominal_turn(t)[1];
+        // No gyroscopic moment acts about the axis; seats of planets that turn with a carrier do.
         let row = |i: usize| {
+            let by_frame = self.frame.as_ref().map_or(0.0, |frame| frame.on_turn(i, &y, speed));
             let of = |m: &DMatrix<f64>, x: &DVector<f64>| m.column(i).dot(x);
             of(&self.bodies.mass, &acceleration) + of(&self.bodies.damping, &rate) + of(&self.bodies.stiffness, &y)
                 - on_bodies[i]
                 - self.outputs[i]
                 - self.varying.on_body(t, i)
+                - by_frame
         };
         let modal = self.free.turning.dot(&(&self.damping * z[1]));
         (0..self.bodies.size()).filter(own).map(row).sum::<f64>() - modal

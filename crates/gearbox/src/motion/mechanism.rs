@@ -8,6 +8,7 @@ use super::{
     free_coordinates::{FreeCoordinates, Guide},
     gear_modes::MovingGears,
     live_mesh::LiveMesh,
+    moving_frame::MovingFrame,
     rolling_supports::RollingSupports,
     varying_torques::{VaryingTorque, VaryingTorques},
 };
@@ -22,6 +23,7 @@ use crate::{
 ///
 /// ```text
 /// M z'' = -dV/dz - (C + psi' G) z' - m psi'' + loads + dampers of the meshes,   V = z' K z/2 + sum of V_mesh(c_i(psi), D_i z)
+/// and with a frame that turns  psi'^2 (b - S z) - psi' Q z
 /// ```
 pub struct GearboxMechanism {
     pub(super) assembly: Assembly,
@@ -42,6 +44,8 @@ pub struct GearboxMechanism {
     pub(super) damping: DMatrix<f64>,
     /// Gyroscopic matrix at the unit speed of the input.
     pub(super) gyroscopic: DMatrix<f64>,
+    /// What the frame of a carrier that turns adds.
+    pub(super) frame: Option<MovingFrame>,
     /// Constant torques of the outputs on the bodies.
     pub(super) outputs: DVector<f64>,
     /// Torques of the outputs that change with time.
@@ -107,6 +111,10 @@ impl GearboxMechanism {
             all.push(elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?);
         }
         let gears = MovingGears::new(&assembly, (&meshes, &train), &all)?;
+        if let (Some(_), Some((disc, _))) = (assembly.structure().fixed, gears.modes().next()) {
+            let gear = assembly.structure().discs[disc].name.clone();
+            return Err(GearboxError::ModesInFrame { gear });
+        }
         let bodies = ReducedBodies::new(&assembly, &held, options.limit)?.with_gears(&assembly, gears.modes());
         let free = FreeCoordinates::new((&assembly, &bodies), (&train, &operation), &options.drive, guide);
         let gears = gears.placed(&assembly, &bodies, &free);
@@ -114,7 +122,7 @@ impl GearboxMechanism {
         let mut balancing = 0.0;
         for torque in &operation.torques {
             outputs[bodies.of_node(assembly.disc(torque.disc).unwrap_or(0)) + 5] += torque.torque;
-            balancing -= torque.torque * train.ratios()[assembly.structure().discs[torque.disc].shaft];
+            balancing -= torque.torque * train.ratios_in_space()[assembly.structure().discs[torque.disc].shaft];
         }
         let given = match options.drive {
             Drive::Speed(_) => 0.0,
@@ -136,8 +144,9 @@ impl GearboxMechanism {
             let balance = matches!(options.drive, Drive::Balanced(_)).then_some(&push);
             live.push(LiveMesh::new(element, &deviations, gears, turn(meshing.direction), (rate, balance)));
         }
-        let spin = bodies.skew(&assembly.gyroscopic(train.ratios())?);
-        let gyroscopic = free.of(&spin, false);
+        let mut spin = assembly.gyroscopic(train.ratios_in_space())?;
+        let frame = MovingFrame::of((&assembly, &bodies, &free), train.frame_ratio(), &mut spin)?;
+        let gyroscopic = free.of(&bodies.skew(&spin), false);
         let (mass, stiffness) = (free.of(&bodies.mass, true), free.of(&bodies.stiffness, false));
         let damping = free.of(&bodies.damping, false);
         let (drive, reach, extremes) = (options.drive, vec![0.0; live.len()], vec![Extremes::default(); live.len()]);
@@ -156,6 +165,7 @@ impl GearboxMechanism {
             stiffness,
             damping,
             gyroscopic,
+            frame,
             outputs,
             varying: VaryingTorques::default(),
             momentum,
@@ -214,7 +224,7 @@ impl GearboxMechanism {
             }
             let shaft = self.assembly.structure().discs[own.disc].shaft;
             let at = self.bodies.of_node(self.assembly.disc(own.disc).unwrap_or(0)) + 5;
-            let (disc, ratio) = (self.free.basis.row(at).transpose(), self.train.ratios()[shaft]);
+            let (disc, ratio) = (self.free.basis.row(at).transpose(), self.train.ratios_in_space()[shaft]);
             self.outputs[at] -= own.torque;
             self.loads[0].axpy(-own.torque, &disc, 1.0);
             let mut along = disc.clone();
@@ -453,7 +463,7 @@ fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), Ge
     if let Some((quantity, value)) = values.into_iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0)) {
         return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value });
     }
-    for bearing in structure.bearings.iter().filter(|b| !structure.stands(b.shaft)) {
+    for bearing in structure.bearings.iter().filter(|b| !structure.can_hold_turn(b.shaft)) {
         let turning = |m: &nalgebra::Matrix6<f64>| m.row(5).amax().max(m.column(5).amax());
         if turning(&bearing.stiffness) > 0.0 || turning(&bearing.damping) > 0.0 {
             return Err(GearboxError::HeldTurn { bearing: bearing.name.clone() });

@@ -32,6 +32,7 @@ mod mapped_mesh;
 mod mechanism;
 mod memory;
 mod moving_exact;
+mod moving_frame;
 mod moving_mesh;
 mod normal_damper;
 mod options;

@@ -84,7 +84,7 @@ impl ReducedBodies {
         [limit, highest]: [f64; 2],
     ) -> Result<(Self, bool), GearboxError> {
         let mut is_all = true;
-        let nodes = nodes(assembly);
+        let nodes = assembly.seat_nodes();
         let kept: Vec<usize> = nodes.iter().flat_map(|(n, _)| *n..*n + 6).collect();
         let (k, m) = (assembly.stiffness_without_meshes(), assembly.mass());
         let condensation = Condensation::new(&k, &kept)?;
@@ -213,29 +213,35 @@ impl ReducedBodies {
 
     /// Forces of preloaded bearings on the coordinates.
     pub(super) fn preload(&self, assembly: &Assembly) -> DVector<f64> {
-        self.basis.tr_mul(&assembly.preload())
+        self.of_forces(&assembly.preload())
+    }
+
+    /// How a turn of the frame by a radian moves the coordinates: J of the places of all axes, mm.
+    pub(super) fn by_frame(&self, assembly: &Assembly) -> DVector<f64> {
+        let places_of_axes = assembly.places_of_axes();
+        let mut all = DVector::zeros(self.size());
+        for (i, (node, _)) in self.nodes.iter().enumerate() {
+            // Nodes within shafts follow their seats.
+            (all[6 * i], all[6 * i + 1]) = (-places_of_axes[node + 1], places_of_axes[*node]);
+        }
+        all
+    }
+
+    /// A matrix of all nodes in reduced coordinates.
+    pub(super) fn of_nodes(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        self.basis.transpose() * matrix * &self.basis
+    }
+
+    /// Forces on all nodes on the coordinates.
+    pub(super) fn of_forces(&self, forces: &DVector<f64>) -> DVector<f64> {
+        self.basis.tr_mul(forces)
     }
 
     /// A matrix of all nodes in reduced coordinates; skew-symmetric ones stay so to the last bit.
     pub(super) fn skew(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        let raw = self.basis.transpose() * matrix * &self.basis;
+        let raw = self.of_nodes(matrix);
         0.5 * (&raw - raw.transpose())
     }
-}
-
-/// Nodes of discs and bearings, each once.
-fn nodes(assembly: &Assembly) -> Vec<(usize, usize)> {
-    let structure = assembly.structure();
-    let discs = structure.discs.iter().enumerate().filter_map(|(i, d)| Some((assembly.disc(i)?, d.shaft)));
-    let ends = |(i, b): (usize, &crate::Bearing)| {
-        let shafts = [Some(b.shaft), b.outer].into_iter().flatten();
-        assembly.bearing_ends(i).map(|(node, _)| node).zip(shafts).collect::<Vec<_>>()
-    };
-    let bearings = structure.bearings.iter().enumerate().flat_map(ends);
-    let mut all: Vec<(usize, usize)> = discs.chain(bearings).collect();
-    all.sort_unstable();
-    all.dedup();
-    all
 }
 
 fn block(matrix: &DMatrix<f64>, of: &[usize]) -> DMatrix<f64> {

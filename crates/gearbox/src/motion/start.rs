@@ -168,6 +168,10 @@ impl GearboxMechanism {
         self.varying.forces(time).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
         let accelerating = self.of_acceleration(acceleration);
         accelerating.into_iter().flatten().for_each(|(size, along)| load.axpy(size, &along.rows(0, n), 1.0));
+        let by_frame = self.frame.as_ref().map(|frame| frame.at(self.nominal_turn(time)[1]));
+        if let Some((centrifugal, _)) = &by_frame {
+            load += centrifugal.rows(0, n);
+        }
         let push = self.push.rows(0, n).into_owned();
         let balances = matches!(self.drive, Drive::Balanced(_));
         let mut guessed = stiffness.clone();
@@ -177,6 +181,8 @@ impl GearboxMechanism {
             guessed.ger(guessed_stiffness(&mesh.pair), &lever, &lever, 1.0);
         }
         let norms = Norms::new(guessed)?;
+        // Beside springs it is small, and no measure of displacements.
+        let stiffness = by_frame.map_or_else(|| stiffness.clone(), |(_, own)| &stiffness + own.view((0, 0), (n, n)));
         let start = from.map_or_else(|| norms.displacements(&load), |z| z.rows(0, n).into_owned());
         let found = equilibrium(&norms, &load, start, |z| {
             let mut left = Left { residual: &stiffness * z - &load, tangent: stiffness.clone() };
@@ -221,7 +227,11 @@ impl GearboxMechanism {
     fn with_static_gears(&mut self, z: &DVector<f64>) -> Result<(Vec<usize>, [DMatrix<f64>; 2]), GearboxError> {
         let n = z.len();
         let mut forces = Forces::zeros(n);
-        self.forces(0.0, z, &DVector::zeros(n), &mut forces)?;
+        // Modes are those without spin.
+        let frame = self.frame.take();
+        let found = self.forces(0.0, z, &DVector::zeros(n), &mut forces);
+        self.frame = frame;
+        found?;
         let k = forces.stiffness;
         let k = 0.5 * (&k + k.transpose());
         let modes: Vec<usize> = self.gears.sizes(1.0).map(|(i, _)| i).collect();

@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone)]
 pub struct Vibration {
     rotors: Rotors,
-    /// Spin of each shaft over that of the input, about +z.
+    /// Spin of each shaft in space over that of the input, about +z.
     ratios: Vec<f64>,
     meshes: Vec<SwingingMesh>,
 }
@@ -99,8 +99,11 @@ impl Vibration {
             let (lever, cycles) = (guessed_lever(mesh, meshing)?, (one[i] - start[i]).abs());
             swinging.push(SwingingMesh { discs: mesh.discs, excitation, turn, lever, start: start[i], cycles });
         }
-        let rotors = Rotors::holding(Assembly::new(Structure { elastic_meshes, ..structure })?, held)?;
-        let ratios = train.ratios().iter().map(|r| r * sense.sign() as f64).collect();
+        let assembly = Assembly::new(Structure { elastic_meshes, ..structure })?;
+        let turns = assembly.structure().fixed.is_some() && held.turns.is_empty();
+        let free = turns.then(|| assembly.turned((train.ratios_in_space(), train.frame_ratio())));
+        let rotors = Rotors::beside_turn(assembly, held, free.as_ref())?;
+        let ratios = train.ratios_in_space().iter().map(|r| r * sense.sign() as f64).collect();
         Ok(Self { rotors, ratios, meshes: swinging })
     }
 
@@ -134,7 +137,7 @@ impl Vibration {
         &self.rotors
     }
 
-    /// Spins of all shafts with the input at `speed`, rad/s about +z.
+    /// Spins of all shafts in space with the input at `speed`, rad/s about +z.
     pub fn speeds(&self, speed: f64) -> Vec<f64> {
         self.ratios.iter().map(|r| r * speed).collect()
     }

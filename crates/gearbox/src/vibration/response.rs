@@ -2,13 +2,15 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::{GearboxError, Rotors};
+use crate::{GearboxError, Rotors, whirl::Spin};
 
 /// Loads, spin and damping of one search for amplitudes.
 pub(crate) struct Spinning<'a> {
     rotors: &'a Rotors,
     /// Phi'(C + G) Phi + diag(2 zeta W), 1/s.
     rates: DMatrix<f64>,
+    /// What a frame that turns adds to W^2, 1/s^2.
+    frame: Option<DMatrix<f64>>,
 }
 
 impl<'a> Spinning<'a> {
@@ -18,8 +20,9 @@ impl<'a> Spinning<'a> {
             let part = "the modes".into();
             return Err(GearboxError::OutOfRange { part, quantity: "damping ratio", value: damping_ratio });
         }
-        let rates = &rotors.damping + rotors.spin(speeds)? + damping_ratio * &rotors.unit_damping;
-        Ok(Self { rotors, rates })
+        let Spin { rates, frame } = rotors.spin(speeds)?;
+        let rates = &rotors.damping + rates + damping_ratio * &rotors.unit_damping;
+        Ok(Self { rotors, rates, frame: frame.map(|[stiffness, circulating]| stiffness + circulating) })
     }
 
     /// Amplitudes of all coordinates.
@@ -40,7 +43,8 @@ impl<'a> Spinning<'a> {
         let modal = times(&rest.shapes.transpose(), force);
         let matrix = DMatrix::from_fn(rest.frequencies.len(), rest.frequencies.len(), |i, j| {
             let own = if i == j { rest.frequencies[i].powi(2) - frequency * frequency } else { 0.0 };
-            Complex::new(own, frequency * self.rates[(i, j)])
+            let by_frame = self.frame.as_ref().map_or(0.0, |frame| frame[(i, j)]);
+            Complex::new(own + by_frame, frequency * self.rates[(i, j)])
         });
         let eta = matrix.lu().solve(&modal).filter(|eta| eta.iter().all(|x| x.re.is_finite() && x.im.is_finite()));
         Ok(times(
@@ -57,7 +61,8 @@ impl Rotors {
     /// (W^2 - w^2 + i w (2 zeta W + Phi'(C + G) Phi)) eta = Phi' f,   x = Phi eta
     /// ```
     /// Computed in all modes without spin: (K - w^2 M + i w (C + G + C_zeta)) x = f, where C_zeta gives every mode
-    /// without spin the damping ratio zeta. It does not damp rigid motions.
+    /// without spin the damping ratio zeta. It does not damp rigid motions. In the frame of a carrier that turns theory (86b)
+    /// stands in their place.
     ///
     /// # Errors
     /// [`GearboxError::OutOfRange`], also if a static force acts on a rigid motion, or an undamped mode is excited at

@@ -46,5 +46,7 @@ mod ross;
 mod rotors;
 mod swinging;
 mod trains;
+mod turning_frame;
+mod turning_motion;
 mod vibration;
 mod whirl;

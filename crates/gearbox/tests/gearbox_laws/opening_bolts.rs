@@ -108,11 +108,12 @@ fn a_bolt_presses_or_has_lifted_off() {
         for (i, mesh) in (0..own.gears.len()).filter(|i| i % 2 == 1).enumerate() {
             let ElasticGear::Reduced(ring) = &own.gears[mesh][1] else { panic!("reduced") };
             let [_, on_ring] = own.gearbox.flank_forces(mesh).unwrap();
+            let on_ring = on_ring.by_node();
             let windows: Vec<_> = (0..80).map(|tooth| ring.window(tooth).unwrap()).collect();
-            let all = |w: &&reduction::Window| on_ring.forces.iter().all(|f| w.reduced.position(f.0).is_some());
+            let all = |w: &&reduction::Window| on_ring.iter().all(|f| w.reduced.position(f.0).is_some());
             let window = windows.iter().find(all).unwrap();
             let known = ring.bolts_and_flanks(window).unwrap();
-            for (node, force) in &on_ring.forces {
+            for (node, force) in &on_ring {
                 let at = window.reduced.position(*node).unwrap();
                 for (k, force) in force.iter().enumerate() {
                     (0..forces.len()).for_each(|bolt| opening[bolt] += known.flanks[(3 * at + k, bolt)] * force);

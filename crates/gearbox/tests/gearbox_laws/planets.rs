@@ -391,7 +391,7 @@ fn lin_and_parkers_stage_has_the_printed_frequencies() {
 }
 
 /// Masses, I/r^2 (kg) and stiffnesses (N/m) of the paper; radii drop out.
-fn lin_and_parker(count: usize) -> Structure {
+pub fn lin_and_parker(count: usize) -> Structure {
     let (bearings_k, mesh_k, ring_turn, angle) = (1e5, 5e5, 1e6, 24.6f64.to_radians());
     // Base radii of sun, ring and planet, and the circle of the pins, mm.
     let [sun_r, ring_r, planet_r, arm] = [20.0, 80.0, 30.0, 50.0 / angle.cos()];

@@ -29,6 +29,12 @@ pub struct StandingModes {
 }
 
 impl StandingModes {
+    /// N, m x m, skew-symmetric.
+    pub fn rate(&self) -> DMatrix<f64> {
+        let m = self.waves.len();
+        DMatrix::from_fn(m, m, |i, j| self.waves[i] * self.quarter[(i, j)])
+    }
+
     /// e^(theta N), m x m, orthogonal. It maps amplitudes fixed in space to amplitudes in the frame of a gear at
     /// `angle` (rad).
     pub fn turned(&self, angle: f64) -> DMatrix<f64> {

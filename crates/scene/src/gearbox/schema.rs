@@ -42,7 +42,7 @@ table! {
         density_kg_m3: bare(1e-9, 1e5), "density, kg/m^3, for vibration and motion; next to nothing where gears have all mass; default: 7850, or the REXS file's";
         held: switch(false), "whether it is rigid in rigid bearings. It turns about its axis and does nothing else; a pair alone is two of these";
         stands: switch(false), "whether it does not turn: a carrier seen from itself, or its pin. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`), or with a `fixed` shaft the meshes do";
-        fixed: switch(false), "whether it does not turn in space, while the carrier does: the ring of most stages. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`). The carrier, which stands in its own frame, is then an input or an output. Speeds and rotations of input and loads are those in space; at rest only";
+        fixed: switch(false), "whether it does not turn in space, while the carrier does: the ring of most stages. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`). The carrier, which stands in its own frame, is then an input or an output. Speeds and rotations of input and loads are those in space";
     }
 }
 

@@ -30,6 +30,23 @@ pub(super) fn seats(
                 "leave the stiffness of that turn out, or let the shaft stand (`stands = true`), or be `fixed`",
             );
         }
+        if let (Some(axis), None) = (fixed, own.in_shaft) {
+            let [axis, inner] = [axis, own.shaft].map(|shaft| &shafts[shaft]);
+            let arm = (inner.origin[0] - axis.origin[0]).hypot(inner.origin[1] - axis.origin[1]);
+            if arm > ONE_AXIS {
+                let said = format!(
+                    "\"{}\" holds \"{}\" in the housing {} mm beside the axis of \"{}\", which is fixed: seen from the carrier that place turns",
+                    own.name,
+                    inner.name,
+                    shown(arm),
+                    axis.name
+                );
+                return wrong(
+                    said,
+                    "seat it in the carrier or a pin with `in_shaft`; a stage of parallel shafts behind the planets goes into a file of its own",
+                );
+            }
+        }
         if fixed.is_some() && own.in_shaft.is_none() && !own.is_round() {
             let said = format!(
                 "\"{}\" in the housing is not the same all round, and the housing turns against the carrier",
@@ -138,12 +155,9 @@ fn fixed_shaft(s: &Source<'_>, raw: &RawGearbox, shafts: &[GearboxShaft]) -> Che
     if shafts[first].stands {
         return wrong("and stands in the frame of the carrier", "a carrier at rest stands: leave `fixed` out");
     }
-    let moves = [
-        ("[vibration]", raw.vibration.is_some()),
-        ("[motion]", raw.motion.is_some()),
-        ("[housing]", raw.housing.is_some()),
-    ];
-    match moves.into_iter().find(|(_, asked)| *asked) {
+    let told =
+        [("[housing]", raw.housing.is_some()), ("[modes] in a [motion]", raw.modes.is_some() && raw.motion.is_some())];
+    match told.into_iter().find(|(_, asked)| *asked) {
         Some((what, _)) => wrong(
             &format!("beside {what}, which knows no frame that turns"),
             "leave it out; or see the stage from its carrier with speeds n - n_c: no `fixed`, the carrier's turn held",

@@ -68,6 +68,21 @@ fn thrust(part: &Part<'_, '_>, attribute: &'static str, sign: f64) -> Result<Opt
     })
 }
 
+/// A coupling as a bearing of its stiffness; `turns`: whether it holds the turn as well.
+pub(super) fn coupling(part: &Part<'_, '_>, turns: bool) -> Result<(String, Option<String>), RexsError> {
+    let (mut t, remark) = springs(part)?;
+    let turn = part.number("rotational_stiffness", "N mm / rad")?.unwrap_or(0.0);
+    if turns && turn > 0.0 {
+        let _ = writeln!(t, "turn_stiffness_nm_per_rad = {:?}", (1e-3 * turn).min(RIGID_TURN));
+    }
+    Ok((t, remark))
+}
+
+/// Stiffness (N/mm, N m/rad) beyond which a spring is rigid: round-off of what programs write for that, 1e20, is no small part
+/// of shafts and teeth.
+const RIGID: f64 = 1e8;
+const RIGID_TURN: f64 = 1e9;
+
 /// A bearing of a stiffness.
 fn springs(part: &Part<'_, '_>) -> Result<(String, Option<String>), RexsError> {
     let radial = part.needed("radial_stiffness", "N / m")?;
@@ -75,10 +90,10 @@ fn springs(part: &Part<'_, '_>) -> Result<(String, Option<String>), RexsError> {
     let tilt = part.number("bending_stiffness", "N mm / rad")?.unwrap_or(0.0);
     let ways = thrust(part, "axial_force_absorption", 1.0)?;
     let axial = if ways == Some([false, false]) { 0.0 } else { axial };
-    let (radial, axial) = (1e-3 * radial, 1e-3 * axial);
+    let [radial, axial] = [radial, axial].map(|k| (1e-3 * k).min(RIGID));
     let mut t = format!("stiffness_n_per_mm = [{radial:?}, {radial:?}, {axial:?}]\n");
     if tilt > 0.0 {
-        let tilt = 1e-3 * tilt;
+        let tilt = (1e-3 * tilt).min(RIGID_TURN);
         let _ = writeln!(t, "tilt_stiffness_nm_per_rad = [{tilt:?}, {tilt:?}]");
     }
     let one_way = matches!(ways, Some([true, false] | [false, true])) && axial > 0.0;

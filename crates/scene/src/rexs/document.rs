@@ -12,6 +12,9 @@ use super::RexsError;
 /// Attributes of an element at the most: each is compared with all before it. REXS has a handful.
 pub(super) const ATTRIBUTES: usize = 10_000;
 
+/// Mark of a component that is passed over.
+const ALL: &str = "*";
+
 /// Line of the first element with more attributes than that, by its equals signs: no `<` stands within an element.
 fn crowded(text: &str) -> Option<usize> {
     let mut line = 1;
@@ -141,7 +144,12 @@ impl<'a> Model<'a> {
 
     /// Whether an attribute of a component was looked at.
     pub(super) fn is_taken(&self, id: &str, attribute: &str) -> bool {
-        self.taken.borrow().get(id).is_some_and(|names| names.contains(attribute))
+        self.taken.borrow().get(id).is_some_and(|names| names.contains(attribute) || names.contains(ALL))
+    }
+
+    /// A component that is as another one, of which all was looked at.
+    pub(super) fn pass_over(&self, id: &'a str) {
+        self.taken.borrow_mut().entry(id).or_default().insert(ALL);
     }
 
     /// What was looked at and not used after all.
@@ -204,6 +212,13 @@ impl<'a> Part<'_, 'a> {
 
     pub(super) fn text(&self, name: &'static str) -> Option<&'a str> {
         self.attribute(name)?.text().map(str::trim)
+    }
+
+    /// Whether an attribute says no: alone, or as a list of which the first counts.
+    pub(super) fn is_off(&self, name: &'static str) -> bool {
+        let Some(node) = self.attribute(name) else { return false };
+        let first = node.descendants().filter_map(|n| n.text().map(str::trim)).find(|text| !text.is_empty());
+        first == Some("false")
     }
 
     pub(super) fn number(&self, attribute: &'static str, wanted: &'static str) -> Result<Option<f64>, RexsError> {

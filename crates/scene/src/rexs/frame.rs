@@ -4,7 +4,6 @@
 use super::{
     RexsError,
     document::{Model, Part},
-    train::Train,
 };
 
 /// Digits of places in a file, mm.
@@ -45,17 +44,17 @@ fn written(x: f64) -> f64 {
     (WRITTEN * x).round() / WRITTEN + 0.0
 }
 
-/// All shafts of a train in their places; `lengths` are theirs, mm.
+/// Shafts in their places, in the frame of the first one; `lengths` are theirs, mm.
 pub(super) fn placed<'m, 'a>(
     model: &Model<'a>,
-    train: &Train<'m, 'a>,
+    shafts: &[Part<'m, 'a>],
     lengths: &[f64],
 ) -> Result<Vec<PlacedShaft<'m, 'a>>, RexsError> {
     let axis_of = |part: &Part<'_, '_>| {
         let axis = part.vector("u_axis_vector")?.and_then(unit);
         axis.ok_or_else(|| RexsError::Missing { part: part.named(), attribute: "u_axis_vector" })
     };
-    let Some(first) = train.shafts.first() else { return Ok(Vec::new()) };
+    let Some(first) = shafts.first() else { return Ok(Vec::new()) };
     let z = axis_of(first)?;
     let w = first.vector("w_axis_vector")?.unwrap_or([0.0, 0.0, 1.0]);
     let beside = [w, [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
@@ -83,7 +82,7 @@ pub(super) fn placed<'m, 'a>(
         let origin = [x, y, z].map(|e| written(dot(end, e)));
         Ok(PlacedShaft { part: *part, origin, support, axis, sign, length: *length, version: model.version() })
     };
-    train.shafts.iter().zip(lengths).map(one).collect()
+    shafts.iter().zip(lengths).map(one).collect()
 }
 
 impl PlacedShaft<'_, '_> {

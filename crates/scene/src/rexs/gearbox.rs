@@ -8,7 +8,7 @@ use super::{
     frame::placed,
     left::left,
     pair::{case_remark, stages},
-    shaft::shaft_of,
+    planetary::body_of,
     train::{Train, sides},
     writer::{FROM, Writer},
 };
@@ -43,15 +43,16 @@ pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGe
     }
     whole(&model, &train)?;
     train.balance();
-    let shafts = train.shafts.iter().map(|s| shaft_of(&model, s.id)).collect::<Result<Vec<_>, _>>()?;
+    let shafts = train.shafts.iter().map(|s| body_of(&model, s)).collect::<Result<Vec<_>, _>>()?;
     let lengths: Vec<f64> = shafts.iter().map(|s| s.sections.iter().map(|x| x[0]).sum()).collect();
-    let places = placed(&model, &train, &lengths)?;
+    let places = placed(&model, &train.shafts, &lengths)?;
     let mut writer = Writer { model: &model, train, shafts, places, names: BTreeMap::new(), text: String::new() };
     let mut remarks: Vec<String> = case_remark(&model).into_iter().collect();
     writer.head();
     writer.shafts();
     remarks.extend(writer.bearings()?);
     writer.gears()?;
+    writer.planets()?;
     let scenes = writer.meshes(stem)?;
     remarks.extend(writer.loads()?);
     let untaken = left(&model);
@@ -62,7 +63,7 @@ pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGe
 }
 
 /// Checks that the file has nothing which a gearbox file cannot say and without which it would be another gearbox.
-fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
+fn whole<'a>(model: &Model<'a>, train: &Train<'_, 'a>) -> Result<(), RexsError> {
     let hint = || "take a pair alone with `--stage N`".to_owned();
     let bearings = model.relations("side").count();
     let most = [train.shafts.len(), train.stages.len(), train.loads.len(), bearings].into_iter().max().unwrap_or(0);
@@ -71,7 +72,7 @@ fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
             format!("has {most} shafts, bearings, stages or loads: a gearbox file has {PARTS} of a kind at the most");
         return Err(RexsError::Unfit { part: "the file".into(), what, hint: hint() });
     }
-    for kind in ["bevel_stage", "worm_stage", "planetary_stage"] {
+    for kind in ["bevel_stage", "worm_stage"] {
         if let Some(part) = model.parts(kind, "stage").next() {
             let what = format!("is a `{kind}`: a gearbox file has stages of cylindrical gears");
             return Err(RexsError::Unfit { part: part.named(), what, hint: hint() });
@@ -81,15 +82,31 @@ fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
         let is_coupling = ["coupling", "switchable_coupling"].iter().any(|k| model.refers(relation, "assembly", k));
         let sides = sides(relation, train);
         let own = reference(relation, "assembly").and_then(|id| model.part("coupling", id));
-        if let Some(part) = own.filter(|_| is_coupling && !sides.is_empty()) {
+        if let Some(part) = own.filter(|_| is_coupling && !sides.is_empty() && train.planetary.is_none()) {
             let what = "is a coupling on a shaft with gears: a gearbox file has none".into();
             return Err(RexsError::Unfit { part: part.named(), what, hint: hint() });
+        }
+    }
+    let copies = train.planetary.as_ref().map(|own| own.pass_over_copies(model)).unwrap_or_default();
+    let is_copy = |id: &str| copies.contains(id);
+    if let Some(planetary) = &train.planetary {
+        let planet = planetary.planets.first().and_then(|own| train.shafts.iter().position(|s| s.id == own.id));
+        if let Some(link) = train.stages.iter().find(|link| !link.shafts.iter().any(|s| Some(*s) == planet)) {
+            let part =
+                link.stage.and_then(|id| model.part("stage", id)).map_or_else(|| "a stage".into(), |p| p.named());
+            let what =
+                "is beside a planetary stage: parallel shafts do not stand still in the frame of its carrier".into();
+            return Err(RexsError::Unfit { part, what, hint: "export the planetary stage alone".into() });
         }
     }
     for (i, relation) in stages(model).into_iter().enumerate() {
         for role in ["gear_1", "gear_2"] {
             let id = reference(relation, role).ok_or(RexsError::Gear { stage: i + 1, role })?;
             let part = model.part("gear", id).ok_or(RexsError::Gear { stage: i + 1, role })?;
+            // Gears of the other planets are copies of the first one's.
+            if is_copy(id) {
+                continue;
+            }
             if !train.gears.contains_key(id) {
                 return Err(RexsError::Unfit { part: part.named(), what: "is on no shaft".into(), hint: hint() });
             }

@@ -7,6 +7,7 @@
 //! | `document` | components, relations, load cases and attributes with units, and which of them were taken |
 //! | `left` | what the file has beside that, in words |
 //! | `train` | shafts, stages and loads: speeds, and the torque of a stage |
+//! | `planetary` | members of a planetary stage |
 //! | `pair` | a stage as a scene |
 //! | `gear` | what a gear and its flanks state |
 //! | `shaft` | sections and steel of a shaft |
@@ -27,6 +28,7 @@ mod gearbox;
 mod left;
 mod out;
 mod pair;
+mod planetary;
 mod shaft;
 mod train;
 mod writer;

@@ -5,13 +5,16 @@ use std::collections::BTreeMap;
 use super::{
     RexsError,
     document::{Model, Part, reference},
+    planetary::Planetary,
 };
 
 /// Shafts, stages and loads at the most.
 const MOST: usize = 1000;
 
-/// Shafts with gears, the stages between them and their loads.
+/// Shafts with gears, the stages between them and their loads. Of a planetary stage the first planet alone is there, and what
+/// stands in the frame of the carrier comes behind the shafts with gears.
 pub(super) struct Train<'m, 'a> {
+    pub planetary: Option<Planetary<'m, 'a>>,
     pub shafts: Vec<Part<'m, 'a>>,
     /// Shaft of each gear.
     pub gears: BTreeMap<&'a str, usize>,
@@ -27,6 +30,8 @@ pub(super) struct Train<'m, 'a> {
 pub(super) struct Link<'a> {
     /// Number of the stage's component, where it has one.
     pub stage: Option<&'a str>,
+    /// Its place among the cylindrical stages of the file.
+    pub number: usize,
     pub gears: [&'a str; 2],
     pub shafts: [usize; 2],
     /// omega_2 / omega_1.
@@ -53,6 +58,8 @@ pub(super) struct StageLoad {
 
 impl<'m, 'a> Train<'m, 'a> {
     pub(super) fn of(model: &'m Model<'a>) -> Result<Self, RexsError> {
+        let planetary = Planetary::of(model)?;
+        let is_copy = |id: &str| planetary.as_ref().is_some_and(|own| own.is_copy(id));
         let mut shafts: Vec<Part<'m, 'a>> = Vec::new();
         let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
         let mut gears = BTreeMap::new();
@@ -61,7 +68,7 @@ impl<'m, 'a> Train<'m, 'a> {
             let (Some(id), Some(gear)) = (reference(relation, "assembly"), reference(relation, "part")) else {
                 continue;
             };
-            if let Some(shaft) = model.part("shaft", id).filter(|_| is_gear) {
+            if let Some(shaft) = model.part("shaft", id).filter(|_| is_gear && !is_copy(id)) {
                 let number = *numbers.entry(shaft.id).or_insert_with(|| {
                     shafts.push(shaft);
                     shafts.len() - 1
@@ -71,16 +78,22 @@ impl<'m, 'a> Train<'m, 'a> {
                 }
             }
         }
+        for own in planetary.iter().flat_map(|own| &own.standing) {
+            numbers.entry(own.id).or_insert_with(|| {
+                shafts.push(*own);
+                shafts.len() - 1
+            });
+        }
         let signs = signs(&shafts)?;
         let stages = model.relations("stage").filter(|r| model.refers(*r, "stage", "cylindrical_stage"));
-        let stages: Vec<Link<'a>> = stages.filter_map(|r| link(model, r, &gears)).collect();
+        let stages: Vec<Link<'a>> = stages.enumerate().filter_map(|(i, r)| link(model, (i, r), &gears)).collect();
         let loads = loads(model, &numbers, &signs)?;
         let most = [shafts.len(), stages.len(), loads.len()].into_iter().max().unwrap_or(0);
         if most > MOST {
             let (part, what) = ("the file".into(), format!("has {most} shafts, stages or loads"));
             return Err(RexsError::Unfit { part, what, hint: format!("export {MOST} of a kind at the most") });
         }
-        let mut train = Self { speeds: vec![None; shafts.len()], shafts, gears, stages, loads, signs };
+        let mut train = Self { planetary, speeds: vec![None; shafts.len()], shafts, gears, stages, loads, signs };
         train.find_speeds()?;
         Ok(train)
     }
@@ -94,6 +107,10 @@ impl<'m, 'a> Train<'m, 'a> {
             }
         }
         let Some(&(_, first, speed)) = stated.iter().min_by_key(|s| (s.0, s.1)) else { return Ok(()) };
+        if self.planetary.is_some() {
+            self.find_speeds_in_space(first, speed);
+            return Ok(());
+        }
         self.speeds[first] = Some(speed);
         for i in self.beyond(first, None) {
             for link in &self.stages {
@@ -106,6 +123,74 @@ impl<'m, 'a> Train<'m, 'a> {
             }
         }
         Ok(())
+    }
+
+    /// Speeds in space by that of one shaft, of shafts that turn against a carrier by their teeth.
+    ///
+    /// ```text
+    /// n_i = k (r_i - r_f)      r: by the teeth with the carrier at rest, r_c = 0; f: the fixed member
+    /// ```
+    fn find_speeds_in_space(&mut self, stated: usize, speed: f64) {
+        let Some(planetary) = &self.planetary else { return };
+        let mut by_teeth: Vec<Option<f64>> =
+            self.shafts.iter().map(|s| planetary.stands(s.id).then_some(0.0)).collect();
+        let Some(link) = self.stages.first() else { return };
+        let first = link.shafts[0];
+        by_teeth[first] = Some(1.0);
+        for i in self.beyond(first, None) {
+            for link in &self.stages {
+                let [a, b] = link.shafts;
+                match (by_teeth[a], by_teeth[b]) {
+                    (Some(own), None) if a == i => by_teeth[b] = Some(own * link.ratio),
+                    (None, Some(own)) if b == i => by_teeth[a] = Some(own / link.ratio),
+                    _ => {}
+                }
+            }
+        }
+        let fixed = planetary.fixed.and_then(|id| self.shafts.iter().position(|s| s.id == id));
+        let of_fixed = fixed.map_or(Some(0.0), |f| by_teeth[f]);
+        let (Some(of_fixed), Some(own)) = (of_fixed, by_teeth[stated]) else { return };
+        let times = speed / (own - of_fixed);
+        if times.is_finite() {
+            self.speeds = by_teeth.into_iter().map(|r| r.map(|r| times * (r - of_fixed))).collect();
+        }
+    }
+
+    /// Torque of each mesh of a planet, N m on the second gear of its stage, where a load of the train is known.
+    ///
+    /// ```text
+    /// T_s + T_r + T_c = 0,   T_r = T_s z_r/z_s,   T_2 = T_s z_2/(z_s N)
+    /// ```
+    fn of_planet(&self, stage: usize) -> Option<f64> {
+        let planetary = self.planetary.as_ref()?;
+        let first = self.stages.first()?;
+        // Turns by teeth stand for their inverse numbers.
+        let ratio_to = |shaft: usize| -> Option<f64> {
+            if shaft == first.shafts[0] {
+                return Some(1.0);
+            }
+            let one = first.ratio;
+            if shaft == first.shafts[1] {
+                return Some(one);
+            }
+            let link = self.stages.iter().find(|l| l.shafts[1] == shaft && l.shafts[0] == first.shafts[1])?;
+            Some(one * link.ratio)
+        };
+        let ring = self.stages.iter().map(|l| l.shafts[1]).find(|s| *s != first.shafts[1]);
+        let to_ring = ring.and_then(ratio_to).map(|r| (1.0 / r).abs());
+        let of_load = |load: &Load<'_, '_>| {
+            let torque = load.torque?.abs();
+            if load.shaft == first.shafts[0] {
+                Some(torque)
+            } else if planetary.stands(self.shafts[load.shaft].id) {
+                Some(torque / (1.0 + to_ring?))
+            } else {
+                Some(torque / to_ring?)
+            }
+        };
+        let of_first = self.loads.iter().find_map(of_load)?;
+        let second = ratio_to(self.stages.get(stage)?.shafts[1])?;
+        Some(of_first / second.abs() / planetary.planets.len() as f64)
     }
 
     /// Shafts that are reached from one, itself first, by all stages but one.
@@ -139,6 +224,10 @@ impl<'m, 'a> Train<'m, 'a> {
     /// What a stage carries, where loads on one of its sides are known.
     pub(super) fn carried(&self, stage: usize) -> Option<StageLoad> {
         let link = self.stages.get(stage)?;
+        if self.planetary.is_some() {
+            let driver_speed = self.speeds[link.shafts[0]].unwrap_or(0.0);
+            return Some(StageLoad { driver: 0, torque: self.of_planet(stage)?, driver_speed });
+        }
         let [first, second] = link.shafts.map(|s| self.beyond(s, Some(stage)));
         if second.contains(&link.shafts[0]) {
             return None;
@@ -176,7 +265,7 @@ fn signs(shafts: &[Part<'_, '_>]) -> Result<Vec<f64>, RexsError> {
 
 fn link<'a>(
     model: &Model<'a>,
-    relation: roxmltree::Node<'a, 'a>,
+    (number, relation): (usize, roxmltree::Node<'a, 'a>),
     gears: &BTreeMap<&'a str, usize>,
 ) -> Option<Link<'a>> {
     let mut ids = [reference(relation, "gear_1")?, reference(relation, "gear_2")?];
@@ -193,7 +282,7 @@ fn link<'a>(
     }
     let shafts = [*gears.get(ids[0])?, *gears.get(ids[1])?];
     let ratio = -teeth[0] / teeth[1];
-    Some(Link { stage: reference(relation, "stage"), gears: ids, shafts, ratio })
+    Some(Link { stage: reference(relation, "stage"), number, gears: ids, shafts, ratio })
 }
 
 /// Loads on the shafts that pass on torque.
@@ -219,9 +308,31 @@ fn loads<'m, 'a>(
     Ok(all)
 }
 
-/// Shafts of the train that a relation stands between.
-pub(super) fn sides(relation: roxmltree::Node<'_, '_>, train: &Train<'_, '_>) -> Vec<usize> {
-    let roles = ["inner_part", "outer_part", "side_1", "side_2"];
-    let ids = roles.iter().filter_map(|role| reference(relation, role));
-    ids.filter_map(|id| train.shafts.iter().position(|s| s.id == id)).collect()
+/// Shafts of the train that a relation stands between, and on which side of it they are; none where it is of another planet
+/// than the first.
+pub(super) fn sides(relation: roxmltree::Node<'_, '_>, train: &Train<'_, '_>) -> Vec<(usize, Side)> {
+    let roles =
+        [("inner_part", Side::Inner), ("outer_part", Side::Outer), ("side_1", Side::Inner), ("side_2", Side::Outer)];
+    let ids = || roles.iter().filter_map(|(role, side)| Some((reference(relation, role)?, *side)));
+    if train.planetary.as_ref().is_some_and(|own| ids().any(|(id, _)| own.is_copy(id))) {
+        return Vec::new();
+    }
+    ids().filter_map(|(id, side)| Some((train.shafts.iter().position(|s| s.id == id)?, side))).collect()
+}
+
+/// Side of a bearing or coupling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Inner,
+    Outer,
+}
+
+impl Side {
+    /// Attribute that has the place of a bearing on the shaft of this side.
+    pub(super) fn coordinate(self) -> &'static str {
+        match self {
+            Self::Inner => "u_coordinate_on_shaft_inner_side",
+            Self::Outer => "u_coordinate_on_shaft_outer_side",
+        }
+    }
 }

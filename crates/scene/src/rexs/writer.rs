@@ -6,8 +6,9 @@ use super::{
     RexsError, RexsPair, RexsShaft,
     bearing::{self, BEARINGS},
     document::{Model, Part, reference},
-    frame::PlacedShaft,
+    frame::{PlacedShaft, placed},
     pair::pair_of,
+    planetary::is_coupling,
     train::{Load, Train, sides},
 };
 use crate::Starter;
@@ -79,6 +80,12 @@ impl<'a> Writer<'_, 'a> {
             self.line("name", quoted(&name));
             let origin = self.places[i].origin;
             self.line("origin_mm", format!("{origin:?}"));
+            if let Some(planetary) = &self.train.planetary {
+                let (stands, fixed) = (planetary.stands(part.id), planetary.fixed == Some(part.id));
+                for (key, _) in [("stands", stands), ("fixed", fixed)].into_iter().filter(|own| own.1) {
+                    self.line(key, true);
+                }
+            }
             let own = self.shafts[i].clone();
             let stated = [("young_mpa", own.young_mpa), ("poisson", own.poisson), ("density_kg_m3", own.density_kg_m3)];
             for (key, value) in stated.into_iter().filter_map(|(key, value)| Some((key, value?))) {
@@ -102,36 +109,79 @@ impl<'a> Writer<'_, 'a> {
     pub(super) fn bearings(&mut self) -> Result<Vec<String>, RexsError> {
         let mut remarks = Vec::new();
         let model = self.model;
+        let stands =
+            |shaft: usize| self.train.planetary.as_ref().is_some_and(|own| own.stands(self.train.shafts[shaft].id));
+        let mut all = Vec::new();
         for relation in model.relations("side") {
-            if !BEARINGS.iter().any(|kind| model.refers(relation, "assembly", kind)) {
+            let couples = self.train.planetary.is_some() && is_coupling(model, relation);
+            if !couples && !BEARINGS.iter().any(|kind| model.refers(relation, "assembly", kind)) {
                 continue;
             }
             let part = reference(relation, "assembly").and_then(|id| model.part("bearing", id));
             let (Some(part), on) = (part, sides(relation, &self.train)) else { continue };
-            let shaft = match on[..] {
+            let (own, seat) = match on[..] {
                 [] => continue,
-                [one] => one,
-                _ => {
-                    return Err(RexsError::Unfit {
-                        part: part.named(),
-                        what: "is between two shafts: bearings of a gearbox file are between a shaft and the housing"
-                            .into(),
-                        hint: "take a pair alone with `--stage N`".into(),
-                    });
-                }
+                [one] => (one, None),
+                // Seats that turn about a carrier are in what stands.
+                [inner, outer, ..] if stands(inner.0) && !stands(outer.0) => (outer, Some(inner.0)),
+                [inner, outer, ..] => (inner, Some(outer.0)),
             };
-            let coordinate = "u_coordinate_on_shaft_inner_side";
-            let position = self.places[shaft].position(&part, coordinate, None)?;
-            let (keys, remark) = bearing::keys(model, &part, self.places[shaft].sign)?;
+            let fixed = self.train.planetary.as_ref().and_then(|own| own.fixed);
+            let still = stands(own.0) || fixed == Some(self.train.shafts[own.0].id);
+            if couples && !still {
+                let what = "couples shafts that turn: a gearbox file has none".into();
+                let hint = "make one shaft of both, or take it out".into();
+                return Err(RexsError::Unfit { part: part.named(), what, hint });
+            }
+            all.push((part, own, seat, couples));
+        }
+        for (part, (shaft, side), seat, couples) in all {
+            let position = self.places[shaft].position(&part, side.coordinate(), None)?;
+            let (keys, remark) = if couples {
+                bearing::coupling(&part, true)?
+            } else {
+                bearing::keys(model, &part, self.places[shaft].sign)?
+            };
             remarks.extend(remark);
             let (name, on) = (self.name(&part), self.name(&self.train.shafts[shaft].clone()));
             self.table("bearing", &part);
             self.line("name", quoted(&name));
             self.line("shaft", quoted(&on));
+            if let Some(seat) = seat {
+                let seat = self.name(&self.train.shafts[seat].clone());
+                self.line("in_shaft", quoted(&seat));
+            }
             self.line("position_mm", format!("{position:?}"));
             self.text.push_str(&keys);
         }
         Ok(remarks)
+    }
+
+    /// The other planets as copies of the first.
+    pub(super) fn planets(&mut self) -> Result<(), RexsError> {
+        let Some(planetary) = &self.train.planetary else { return Ok(()) };
+        let shafts: Vec<Part<'_, 'a>> = [&self.train.shafts[..1], &planetary.planets].concat();
+        let (model, pin, carrier) = (self.model, planetary.pin, planetary.standing.first().copied());
+        let Some(carrier) = carrier else { return Ok(()) };
+        let axis =
+            self.train.shafts.iter().position(|own| own.id == carrier.id).map_or([0.0; 3], |i| self.places[i].origin);
+        let places = placed(model, &shafts, &vec![0.0; shafts.len()])?;
+        let angle =
+            |place: &PlacedShaft<'_, '_>| (place.origin[1] - axis[1]).atan2(place.origin[0] - axis[0]).to_degrees();
+        let first = places.get(1).map_or(0.0, angle);
+        // A full turn beside the first is none.
+        let from_first = |place| ((angle(place) - first).rem_euclid(360.0) * 1e9).round() / 1e9 % 360.0;
+        let mut angles: Vec<f64> = places[1..].iter().map(from_first).collect();
+        angles[1..].sort_by(f64::total_cmp);
+        let own = [Some(planetary.planets[0]), pin.and_then(|id| model.part("shaft", id))];
+        let names: Vec<String> = own.into_iter().flatten().map(|part| quoted(&self.name(&part))).collect();
+        let around = self.name(&carrier);
+        self.heading("planets", "[[planets]]");
+        self.line("shafts", format!("[{}]", names.join(", ")));
+        self.line("around", quoted(&around));
+        self.line("count", angles.len());
+        self.line("angles_deg", format!("{angles:?}"));
+        Ok(())
     }
 
     pub(super) fn gears(&mut self) -> Result<(), RexsError> {
@@ -155,7 +205,8 @@ impl<'a> Writer<'_, 'a> {
     pub(super) fn meshes(&mut self, stem: &str) -> Result<Vec<(String, String, RexsPair)>, RexsError> {
         let mut scenes = Vec::new();
         for k in 0..self.train.stages.len() {
-            let mut pair = pair_of(self.model, &self.train, k + 1, &Starter::default())?;
+            let number = self.train.stages[k].number + 1;
+            let mut pair = pair_of(self.model, &self.train, number, &Starter::default())?;
             let (shafts, gears) = (self.train.stages[k].shafts, self.train.stages[k].gears);
             let [a, b] = shafts.map(|s| self.places[s].origin);
             let distance = (b[0] - a[0]).hypot(b[1] - a[1]);

@@ -9,3 +9,4 @@ mod internal;
 mod places;
 mod planets;
 mod rating;
+mod rexs_planets;

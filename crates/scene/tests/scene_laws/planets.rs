@@ -290,7 +290,12 @@ fn a_ring_is_fixed_in_space() {
             "not the same all round",
         ),
         ("[800000.0, 800000.0, 0.0]", "[800000.0, 700000.0, 0.0]", "not the same all round"),
-        ("[analysis]\n", "[vibration]\nfrom_rpm = 500.0\nto_rpm = 900.0\n[analysis]\n", "beside [vibration]"),
+        ("[analysis]\n", "[modes]\n[motion]\nspeed_rpm = 100.0\n[analysis]\n", "beside [modes] in a [motion]"),
+        (
+            "name = \"needles a\"\nshaft = \"planet\"\nin_shaft = \"pin\"\n",
+            "name = \"needles a\"\nshaft = \"planet\"\n",
+            "seen from the carrier that place turns",
+        ),
         (
             "shaft = \"carrier\"\nposition_mm = 0.0",
             "shaft = \"ring\"\nposition_mm = 0.0",

@@ -5,6 +5,7 @@
 mod calculix_pair;
 mod gearbox_modes;
 mod planet_on_rollers;
+mod stage;
 
 use std::process::ExitCode;
 
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         .needing(&calculix, "calculix_agrees_on_a_planet_in_its_ring", agrees_on_a_planet_in_its_ring)
         .needing(&calculix, "calculix_agrees_on_a_box_of_elastic_gears", gearbox_modes::elastic_gears_in_a_box)
         .needing(&calculix, "calculix_agrees_on_a_planet_on_rollers", planet_on_rollers::agrees_on_a_planet_on_rollers)
+        .needing(&calculix, "calculix_agrees_on_a_stage", stage::agrees_on_a_stage)
         .run()
 }
 

@@ -143,9 +143,9 @@ fn displacements(
     });
     let forces = [0, 1].map(|i| {
         let mut all = vec![0.0; windows[i].reduced.coordinates()];
-        for (node, force) in &flanks[i].forces {
-            let at = 3 * windows[i].reduced.position(*node).unwrap();
-            all[at..at + 3].copy_from_slice(force);
+        for (node, force) in flanks[i].by_node() {
+            let at = 3 * windows[i].reduced.position(node).unwrap();
+            all[at..at + 3].copy_from_slice(&force);
         }
         all
     });
@@ -174,10 +174,10 @@ fn displacements(
         let turn = Rotation2::new(flanks[i].angle);
         let mesh = reducers[i].gear().mesh();
         let rigid: f64 = flanks[i]
-            .forces
-            .iter()
-            .map(|(node, f)| {
-                let ([x, y, z], [fx, fy, fz]) = (mesh.nodes[*node as usize], *f);
+            .by_node()
+            .into_iter()
+            .map(|(node, [fx, fy, fz])| {
+                let [x, y, z] = mesh.nodes[node as usize];
                 let (x, f) = (turn * Vector2::new(x, y), turn * Vector2::new(fx, fy));
                 let [ux, uy, about_x, about_y] = moved;
                 f.x * (ux + about_y * z) + f.y * (uy - about_x * z) + fz * (about_x * x.y - about_y * x.x)
@@ -304,10 +304,10 @@ fn loads(own: &Own) -> Vec<(usize, [f64; 3])> {
         .iter()
         .flat_map(|flank| {
             let turn = Rotation2::new(flank.angle - own.rollers.angle);
-            flank.forces.iter().map(move |(node, [fx, fy, fz])| {
-                let [x, y, z] = mesh.nodes[*node as usize];
-                let (x, f) = (turn * Vector2::new(x, y), turn * Vector2::new(*fx, *fy));
-                (near(Vector3::new(x.x, x.y, z)), [f.x, f.y, *fz])
+            flank.by_node().into_iter().map(move |(node, [fx, fy, fz])| {
+                let [x, y, z] = mesh.nodes[node as usize];
+                let (x, f) = (turn * Vector2::new(x, y), turn * Vector2::new(fx, fy));
+                (near(Vector3::new(x.x, x.y, z)), [f.x, f.y, fz])
             })
         })
         .collect()
@@ -350,7 +350,7 @@ pub fn agrees_on_a_planet_on_rollers(calculix: Calculix) {
     let of_zone = off(&theirs);
     println!("rollers {:.1?} N, CalculiX {theirs:.1?} N: {:.4} % of the largest", own.zone, 100.0 * of_zone);
     let loads = loads(&own);
-    let (first, second) = loads.split_at(own.flanks[0].forces.len());
+    let (first, second) = loads.split_at(own.flanks[0].by_node().len());
     let of_flanks = [first, second].map(|loads| {
         let size = loads.iter().map(|own| Vector3::from(own.1)).sum::<Vector3<f64>>().norm();
         loads.iter().map(|(n, f)| Vector3::from(*f).dot(&all[*n])).sum::<f64>() / size
