@@ -16,13 +16,13 @@ empty)
         exit 0
     fi
     mkdir -p "$place/tmp" && cp "$program" "$place/ale-gear"
-    as=(chroot)
-    [ "$(id -u)" = 0 ] || as=(unshare -r chroot)
-    (cd "$place" && env -i PATH=/ TMPDIR=/tmp "${as[@]}" "$place" /ale-gear --no-cache) >"$place/log" 2>&1 || { cat "$place/log" >&2; exit 1; }
+    as=("$(command -v chroot)")
+    [ "$(id -u)" = 0 ] || as=("$(command -v unshare)" -r "${as[@]}")
+    (cd "$place" && env -i PATH=/ TMPDIR=/tmp "${as[@]}" "$place" /ale-gear) >"$place/log" 2>&1 || { cat "$place/log" >&2; exit 1; }
     ;;
 *)
     command -v "$by" >/dev/null || { echo "untested: there is no $by here"; exit 0; }
-    (cd "$place" && WINEDEBUG=-all WINEPREFIX="$place/wine" "$by" "$program" --no-cache) >"$place/log" 2>&1 || { cat "$place/log" >&2; exit 1; }
+    (cd "$place" && WINEDEBUG=-all WINEPREFIX="$place/wine" XDG_CACHE_HOME="$place/cache" "$by" "$program") >"$place/log" 2>&1 || { cat "$place/log" >&2; exit 1; }
     ;;
 esac
 [ -s "$results" ] || { echo "no result" >&2; exit 1; }
