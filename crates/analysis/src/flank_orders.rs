@@ -18,8 +18,12 @@ use crate::remark;
 /// Waves that are looked for on the flanks of a gear, and the least amplitude over the largest depth of the deviation.
 const WAVES: usize = 10;
 const LEAST: f64 = 1e-3;
-/// Waves are looked for from half the number of teeth up to so many times that.
-const HARMONICS: u32 = 10;
+/// Waves are looked for up to so many times the number of teeth.
+const HARMONICS: u32 = 20;
+/// Heights at which waves are fitted: by how far their phase goes from one to the next at the most, rad, and how many at least
+/// and at the most.
+const PHASE_STEP: f64 = 0.3;
+const HEIGHTS: [f64; 2] = [33.0, 257.0];
 /// Places of a profile at which its topography is read.
 const PLACES: usize = 400;
 /// Places over the band of a slice.
@@ -131,7 +135,8 @@ impl FlankOrders {
         for (gear, own) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
             let Some(deviations) = Deviations::of(own, side, slice) else { continue };
             for wave in &waves.waves[gear] {
-                let depth = |tooth: u32, at: [f64; 2]| deviations.wave_um(wave, tooth, at);
+                let wave_of = deviations.over_face(wave);
+                let depth = |tooth: u32, at: [f64; 2]| deviations.wave_um(&wave_of, tooth, at);
                 parts.push((gear, FlankPart::Wave(wave.order), over(history, (gear, side, own.base_radius()), &depth)));
             }
             for tooth in 0..own.teeth() {
@@ -203,19 +208,23 @@ impl FlankOrders {
 /// of a gear whose teeth differ.
 pub(crate) fn misplaced_orders(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
     let waves = FlankWaves::of(scene, pair);
-    let (positions, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
+    let positions = scene.analysis.positions_per_cycle;
     let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)].into_iter().zip(&waves.waves);
-    let said = gears.flat_map(|((name, gear), waves)| {
+    let short = gears.filter_map(|((name, gear), waves)| {
         let short = waves.iter().filter(|wave| 2 * wave.order > positions * gear.teeth());
-        let most = short.max_by(|a, b| a.amplitude_um.total_cmp(&b.amplitude_um));
-        let aliased = most.map(|most| {
-            let enough = 2 * most.order / gear.teeth() + 1;
-            remark::aliased_wave(name, most.order, most.amplitude_um, positions, enough)
-        });
-        let differs = gear.has_own_teeth() && !cycles.is_multiple_of(gear.teeth());
-        [aliased, differs.then(|| remark::orders_of_no_turn(name, cycles, gear.teeth()))]
+        let most = short.max_by(|a, b| a.amplitude_um.total_cmp(&b.amplitude_um))?;
+        let enough = 2 * most.order / gear.teeth() + 1;
+        Some(remark::aliased_wave(name, most.order, most.amplitude_um, positions, enough))
     });
-    said.flatten().collect()
+    short.chain(orders_of_no_turn(pair, u64::from(scene.analysis.cycles))).collect()
+}
+
+/// One remark for each gear whose teeth differ and that so many mesh cycles do not turn whole times: its orders fall between the
+/// lines of a spectrum over them.
+pub(crate) fn orders_of_no_turn(pair: &GearPair, cycles: u64) -> impl Iterator<Item = Remark> {
+    let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)].into_iter();
+    let broken = gears.filter(move |(_, gear)| gear.has_own_teeth() && !cycles.is_multiple_of(u64::from(gear.teeth())));
+    broken.map(move |(name, gear)| remark::orders_of_no_turn(name, cycles, gear.teeth()))
 }
 
 /// What a depth (um) on the driving flanks of a gear adds to the transmission error at each position, um.
@@ -267,19 +276,54 @@ impl<'a> Deviations<'a> {
         1e3 * (flank.depth(u, z).value + flank.deviation(u, z) + self.gear.pitch_depth(self.side, i64::from(tooth)))
     }
 
+    /// A wave at heights over the face: found at mid-face, fitted anew at each of them.
+    fn over_face(&self, wave: &Ripple) -> WaveOverFace {
+        let width = self.gear.face_width();
+        let count =
+            (f64::from(wave.order) * self.gear.twist().abs() * width / PHASE_STEP).clamp(HEIGHTS[0], HEIGHTS[1]);
+        let step = width / (count.ceil() - 1.0);
+        let at = |i: usize| {
+            let found = metrology::ripple(
+                &self.measured(-0.5 * width + i as f64 * step),
+                self.side,
+                wave.order..=wave.order,
+                1,
+                0.0,
+            );
+            let own = found.ok().and_then(|all| all.first().copied());
+            own.map_or([0.0; 2], |own| [f64::cos, f64::sin].map(|f| own.amplitude_um * f(own.phase_rad)))
+        };
+        let amplitudes = (0..count.ceil() as usize).map(at).collect();
+        WaveOverFace { order: wave.order, from: -0.5 * width, step, amplitudes }
+    }
+
     /// Depth of a wave on a tooth, um.
-    fn wave_um(&self, wave: &Ripple, tooth: u32, [u, z]: [f64; 2]) -> f64 {
+    fn wave_um(&self, wave: &WaveOverFace, tooth: u32, [u, z]: [f64; 2]) -> f64 {
         let turn = TAU * f64::from(tooth) / f64::from(self.gear.teeth()) + self.gear.twist() * z;
-        -wave.amplitude_um * (f64::from(wave.order) * (u - self.side.sign() * turn) + wave.phase_rad).cos()
+        let (sin, cos) = (f64::from(wave.order) * (u - self.side.sign() * turn)).sin_cos();
+        let [a, b] = wave.at(z);
+        b * sin - a * cos
     }
 
     /// Waves of all teeth along their profiles at mid-face, where a topography has lines.
     fn waves(&self) -> Vec<Ripple> {
-        let Some(topography) = self.topography else { return Vec::new() };
+        if self.topography.is_none() {
+            return Vec::new();
+        }
+        let measured = self.measured(0.0);
+        let depths = measured.traces.iter().flat_map(|own| &own.deviations_um).flatten();
+        let least_um = LEAST * depths.fold(0.0, |most: f64, depth| most.max(depth.abs()));
+        let orders = 1..=HARMONICS * self.gear.teeth();
+        // A topography beside the flank has none.
+        metrology::ripple(&measured, self.side, orders, WAVES, least_um).unwrap_or_default()
+    }
+
+    /// Profiles of all teeth at a height (mm), as a machine would have measured them.
+    fn measured(&self, height: f64) -> MeasuredGear {
         let (gear, base) = (self.gear, self.gear.base_radius());
         let profile = gear.profile();
         let mut range = [profile.roll_form(), profile.roll_tip()];
-        for grid in topography.grids() {
+        for grid in self.topography.iter().flat_map(|own| own.grids()) {
             let (first, last) = match grid.profile() {
                 ProfileAxis::Roll(rolls) => (rolls.first().copied(), rolls.last().copied()),
                 ProfileAxis::Diameter(all) => {
@@ -305,16 +349,31 @@ impl<'a> Deviations<'a> {
         let place = |i: usize| range[0] + (range[1] - range[0]) * i as f64 / (PLACES - 1) as f64;
         let trace = |tooth: u32| {
             let flank = &self.flanks[tooth as usize];
-            let proud = |u: f64| Some(-1e3 * (flank.depth(u, 0.0).value + flank.deviation(u, 0.0)));
+            let proud = |u: f64| Some(-1e3 * (flank.depth(u, height).value + flank.deviation(u, height)));
             let deviations_um = (0..PLACES).map(|i| proud(place(i))).collect();
-            Trace { kind: TraceKind::Profile(0.0), tooth, side: self.side, deviations_um }
+            Trace { kind: TraceKind::Profile(height), tooth, side: self.side, deviations_um }
         };
         let traces: Vec<Trace> = (0..gear.teeth()).map(trace).collect();
-        let depths = traces.iter().flat_map(|own| &own.deviations_um).flatten();
-        let least_um = LEAST * depths.fold(0.0, |most: f64, depth| most.max(depth.abs()));
-        let measured = MeasuredGear { header, traces, pitch: Vec::new() };
-        let orders = gear.teeth() / 2..=HARMONICS * gear.teeth();
-        // A topography beside the flank has none.
-        metrology::ripple(&measured, self.side, orders, WAVES, least_um).unwrap_or_default()
+        MeasuredGear { header, traces, pitch: Vec::new() }
+    }
+}
+
+/// A wave whose amplitude and phase change over the face: a cos(O theta) - b sin(O theta), theta along the twist of the gear.
+struct WaveOverFace {
+    order: u32,
+    from: f64,
+    step: f64,
+    /// a and b at even heights, um proud of the flank.
+    amplitudes: Vec<[f64; 2]>,
+}
+
+impl WaveOverFace {
+    /// a and b at a height, straight between those that are known.
+    fn at(&self, z: f64) -> [f64; 2] {
+        let last = self.amplitudes.len() - 1;
+        let t = ((z - self.from) / self.step).clamp(0.0, last as f64);
+        let i = (t as usize).min(last - 1);
+        let [one, other] = [self.amplitudes[i], self.amplitudes[i + 1]];
+        [0, 1].map(|k| one[k] + (t - i as f64) * (other[k] - one[k]))
     }
 }

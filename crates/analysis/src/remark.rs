@@ -54,7 +54,7 @@ answer::remarks! {
         "the {gear}'s wave of order {order} ({amplitude_um:.3} um) has fewer than two positions a period: with {positions} positions a mesh cycle it shows at another order",
         "{positions_enough} would do (`positions_per_cycle` in [analysis])";
     orders_of_no_turn(gear, cycles, teeth)
-        "{cycles} mesh cycles are no whole turn of the {gear} of {teeth} teeth: orders that its flanks and pitch errors make fall between the lines of te_orders.csv",
+        "{cycles} mesh cycles are no whole turn of the {gear} of {teeth} teeth: orders that its flanks and pitch errors make fall between the lines of spectra over them",
         "ask for whole turns: `turn = \"{gear}\"`, or with both gears `turn = \"hunting\"` in [analysis]";
     window_widened(failure, teeth) "{failure}; the window was widened to {teeth} teeth", "";
     window_widened_in_motion(failure, teeth)

@@ -99,6 +99,7 @@ impl MetrologyError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         match self {
+            Self::Syntax { found, .. } if found.contains(',') => Some("numbers have a decimal point".into()),
             Self::Syntax { .. } | Self::Count { .. } => {
                 Some("is the file complete and of the kind that it is read as?".into())
             }
@@ -111,7 +112,7 @@ impl MetrologyError {
                 "keys: teeth, normal_module, helix_angle, pressure_angle, profiles, helices, tooth, first_tooth, side, left, right, place, from, to, values, undefined".into(),
             ),
             Self::OtherGear { .. } => Some("is it the file of this gear?".into()),
-            Self::Unusable { .. } => Some("measure profiles or helices on at least one tooth".into()),
+            Self::Unusable { .. } => Some("correct the header of the file, or measure profiles or helices on at least one tooth".into()),
             Self::Geometry(e) => e.hint(),
         }
     }

@@ -13,6 +13,8 @@ use crate::measured_gear::{GearHeader, MeasuredGear, Trace, TraceKind};
 const LINES: [usize; 2] = [481, 121];
 /// By how much data of file and gear may differ, parts.
 const SAME: f64 = 1e-3;
+/// By how much profile shifts may differ.
+const SAME_SHIFT: f64 = 0.1;
 
 /// Flanks of a measured gear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -26,6 +28,8 @@ pub struct MeasuredFlanks {
     pub left_out_mm: f64,
     /// Teeth of either side that were measured; all others are copies of the nearest.
     pub measured_teeth: [Vec<u32>; 2],
+    /// How many of them have one profile alone, which stands for the whole face.
+    pub same_along_face: [usize; 2],
     /// How far the flanks go on beyond the traces, mm: along the profile below and above, along the face below and above.
     pub extrapolated_mm: [f64; 4],
 }
@@ -39,6 +43,11 @@ pub(crate) fn same_gear(header: &GearHeader, gear: &Gear) -> Result<(), Metrolog
         ("helix angle [deg]", header.helix_angle.to_degrees(), data.helix_angle.to_degrees()),
         ("pressure angle [deg]", header.pressure_angle.to_degrees(), data.normal_pressure_angle.to_degrees()),
     ];
+    let width = header.face_width.map(|b| ("face width [mm]", b, data.face_width));
+    let shift = header.profile_shift.map(|x| ("profile shift coefficient", x, data.profile_shift));
+    // A shift that thins the teeth for their backlash is often counted in.
+    let shift = shift.filter(|(_, x, own)| (x - own).abs() > SAME_SHIFT);
+    let all = all.into_iter().chain(width).chain(shift);
     match all.into_iter().find(|(_, measured, own)| (measured - own).abs() > SAME * own.abs().max(1.0)) {
         Some((name, measured, own)) => Err(MetrologyError::OtherGear { name, measured, own }),
         None => Ok(()),
@@ -60,27 +69,42 @@ pub(crate) fn same_gear(header: &GearHeader, gear: &Gear) -> Result<(), Metrolog
 pub fn flanks(measured: &MeasuredGear, gear: &Gear) -> Result<MeasuredFlanks, MetrologyError> {
     let header = &measured.header;
     same_gear(header, gear)?;
+    let radii = [gear.root_radius(), gear.tip_radius()];
+    let is_beside = |trace: &Trace| match trace.kind {
+        TraceKind::Profile(z) => z.abs() > 0.5 * gear.face_width() * (1.0 + SAME),
+        TraceKind::Helix(d) => 0.5 * d < radii[0] || 0.5 * d > radii[1],
+    };
+    if measured.traces.iter().any(is_beside) {
+        return Err(MetrologyError::Unusable {
+            what: "a profile stands beyond the face of the gear (heights count from its middle), or a helix beyond its teeth",
+        });
+    }
     let mut extrapolated_mm = [0.0f64; 4];
     let mut topographies = [None, None];
     let mut measured_teeth = [Vec::new(), Vec::new()];
+    let mut same_along_face = [0; 2];
     for (slot, side) in [Side::Left, Side::Right].into_iter().enumerate() {
         let mut teeth: BTreeMap<u32, Vec<&Trace>> = BTreeMap::new();
         for trace in measured.traces.iter().filter(|t| t.side == side) {
             teeth.entry(trace.tooth).or_default().push(trace);
         }
+        let blends: BTreeMap<u32, Blend> =
+            teeth.into_iter().filter_map(|(tooth, traces)| Some((tooth, Blend::new(header, &traces)?))).collect();
+        let (lines, beyond) = common_lines(blends.values(), gear);
+        if !blends.is_empty() {
+            extrapolated_mm.iter_mut().zip(beyond).for_each(|(all, own)| *all = all.max(own));
+        }
+        same_along_face[slot] =
+            blends.values().filter(|blend| blend.helices.is_empty() && blend.profiles.len() < 2).count();
         let mut grids = BTreeMap::new();
-        for (tooth, traces) in teeth {
-            let blend = Blend::new(header, &traces);
-            if let Some((grid, beyond)) = blend.map(|b| b.grid(gear)).transpose()? {
-                extrapolated_mm.iter_mut().zip(beyond).for_each(|(all, own)| *all = all.max(own));
-                grids.insert(tooth, grid);
-            }
+        for (tooth, blend) in blends {
+            grids.insert(tooth, blend.grid(&lines, gear)?);
         }
         measured_teeth[slot] = grids.keys().copied().collect();
         topographies[slot] = (!grids.is_empty()).then(|| grids.into());
     }
     if topographies.iter().all(Option::is_none) && measured.pitch.is_empty() {
-        return Err(MetrologyError::Unusable { what: "no trace has a measuring range and two values" });
+        return Err(MetrologyError::Unusable { what: header.no_range() });
     }
     let sides = measured.pitch.len().max(1) as f64;
     let mut pitch_errors = vec![0.0; if measured.pitch.is_empty() { 0 } else { header.teeth as usize }];
@@ -90,7 +114,7 @@ pub fn flanks(measured: &MeasuredGear, gear: &Gear) -> Result<MeasuredFlanks, Me
     let off =
         measured.pitch.iter().flat_map(|p| p.index_um.iter().zip(&pitch_errors)).map(|(own, e)| (1e-3 * own - e).abs());
     let left_out_mm = off.fold(0.0, f64::max);
-    Ok(MeasuredFlanks { topographies, pitch_errors, left_out_mm, measured_teeth, extrapolated_mm })
+    Ok(MeasuredFlanks { topographies, pitch_errors, left_out_mm, measured_teeth, same_along_face, extrapolated_mm })
 }
 
 /// A trace as a function: places ascending, values in mm, and where across it stands.
@@ -192,29 +216,41 @@ impl Blend {
         sum
     }
 
-    /// The grid of its depths, and how far the flank goes beyond it.
-    fn grid(&self, gear: &Gear) -> Result<(TopographyGrid, [f64; 4]), MetrologyError> {
-        let base = gear.base_radius();
-        let flank = [gear.profile().roll_form(), gear.profile().roll_tip()].map(|u| base * u);
-        let half = 0.5 * gear.face_width();
-        let common = |lines: &[Line], own: [f64; 2]| match lines {
-            [] => own,
-            lines => lines.iter().map(Line::ends).fold(lines[0].ends(), |a, b| [a[0].max(b[0]), a[1].min(b[1])]),
-        };
-        let ends = [common(&self.profiles, flank), common(&self.helices, [-half, half])];
-        let beyond = [ends[0][0] - flank[0], flank[1] - ends[0][1], ends[1][0] + half, half - ends[1][1]];
+    /// Lines along the profile and along the face that its traces ask for.
+    fn counts(&self) -> [usize; 2] {
         let count =
             |lines: &[Line], most: usize| lines.iter().map(|l| l.points.len()).max().unwrap_or(2).clamp(2, most);
-        let even = |[from, to]: [f64; 2], n: usize| -> Vec<f64> {
-            (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()
-        };
-        let x = even(ends[0], count(&self.profiles, LINES[0]));
         // Profiles at several heights alone ask for lines between them.
-        let z = even(ends[1], count(&self.helices, LINES[1]).max(self.profiles.len().min(LINES[1])));
+        let between = self.profiles.len().min(LINES[1]);
+        [count(&self.profiles, LINES[0]), count(&self.helices, LINES[1]).max(between)]
+    }
+
+    /// The grid of its depths on lines over roll length and height.
+    fn grid(&self, [x, z]: &[Vec<f64>; 2], gear: &Gear) -> Result<TopographyGrid, MetrologyError> {
+        let base = gear.base_radius();
         let depths = x.iter().flat_map(|&x| z.iter().map(move |&z| (x, z))).map(|(x, z)| -self.at(x, z)).collect();
         let rolls = ProfileAxis::Roll(x.iter().map(|x| x / base).collect());
-        Ok((TopographyGrid::new(rolls, z, depths)?, beyond.map(|b| b.max(0.0))))
+        Ok(TopographyGrid::new(rolls, z.clone(), depths)?)
     }
+}
+
+/// Lines over roll length and height that lie within the traces of all teeth, as many as the finest of them asks for, and how
+/// far the flank goes beyond them: along the profile below and above, along the face below and above, mm.
+fn common_lines<'a>(blends: impl Iterator<Item = &'a Blend> + Clone, gear: &Gear) -> ([Vec<f64>; 2], [f64; 4]) {
+    let base = gear.base_radius();
+    let flank = [gear.profile().roll_form(), gear.profile().roll_tip()].map(|u| base * u);
+    let half = 0.5 * gear.face_width();
+    let common = |of: fn(&Blend) -> &Vec<Line>, own: [f64; 2]| {
+        let within = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
+        blends.clone().flat_map(of).map(Line::ends).reduce(within).unwrap_or(own)
+    };
+    let ends = [common(|b| &b.profiles, flank), common(|b| &b.helices, [-half, half])];
+    let counts = blends.clone().map(Blend::counts).fold([2; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+    let even = |[from, to]: [f64; 2], n: usize| -> Vec<f64> {
+        (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()
+    };
+    let beyond = [ends[0][0] - flank[0], flank[1] - ends[0][1], ends[1][0] + half, half - ends[1][1]];
+    ([even(ends[0], counts[0]), even(ends[1], counts[1])], beyond.map(|b| b.max(0.0)))
 }
 
 /// Shares of the lines beside a place: straight between them and on beyond the last two.

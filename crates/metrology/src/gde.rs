@@ -58,18 +58,28 @@ fn one() -> u32 {
 }
 
 impl GdeNames {
+    /// Whether a number stands for no value: within 1e-6 of `undefined`.
+    fn is_undefined(&self, value: f64) -> bool {
+        self.undefined.is_some_and(|none| (value - none).abs() <= 1e-6 * none.abs())
+    }
+
     /// Names of a file with the fields of [`GdeNames`] as keys; `path` is what messages name.
     ///
     /// # Errors
     /// [`MetrologyError::Names`] with file, line and what is missing, unknown or of another kind.
     pub fn parse(text: &str, path: &Path) -> Result<Self, MetrologyError> {
-        toml::from_str(text).map_err(|e: toml::de::Error| MetrologyError::Names {
+        let names: Self = toml::from_str(text).map_err(|e: toml::de::Error| MetrologyError::Names {
             path: path.to_owned(),
             line: e.span().map_or(1, |span| {
                 1 + text.as_bytes()[..span.start.min(text.len())].iter().filter(|b| **b == b'\n').count()
             }),
             message: e.message().to_owned(),
-        })
+        })?;
+        if names.left == names.right {
+            let message = format!("`left` and `right` are both `{}`", names.left);
+            return Err(MetrologyError::Names { path: path.to_owned(), line: 1, message });
+        }
+        Ok(names)
     }
 }
 
@@ -199,9 +209,17 @@ impl Reader<'_> {
         let [from, to] = [&names.from, &names.to].map(|name| self.number(node, name, "start and end of the trace"));
         let mut deviations_um = Vec::new();
         for text in self.texts(node, &names.values) {
+            // Commas separate where nothing else does; with blanks between values they would be decimal marks.
+            let mut apart = text.split(|c: char| c.is_whitespace() || c == ';').filter(|w| !w.is_empty());
+            let decimal = |word: &&str| word.trim_end_matches(',').contains(',');
+            if text.split_whitespace().count() > 1
+                && let Some(word) = apart.find(decimal)
+            {
+                return Err(self.fault(node, "a number with a decimal point", word));
+            }
             for word in text.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|w| !w.is_empty()) {
                 let value = match word.parse::<f64>() {
-                    Ok(value) => Some(value).filter(|v| v.is_finite() && names.undefined != Some(*v)),
+                    Ok(value) => Some(value).filter(|v| v.is_finite() && !names.is_undefined(*v)),
                     Err(_) if word == "-" => None,
                     Err(_) => return Err(self.fault(node, "a number", word)),
                 };

@@ -10,6 +10,8 @@ use crate::MetrologyError;
 
 /// Largest deviation that a flank may have, in normal modules: more is a number that stands for no value.
 const LARGEST: f64 = 0.25;
+/// Largest deviation of a topography, um.
+const LARGEST_UM: f64 = 1000.0;
 
 /// A range of a trace, from and to; diameters (mm) of profiles, heights (mm) of helices.
 pub type Range = [f64; 2];
@@ -105,6 +107,24 @@ impl GearHeader {
         0.5 * (diameter * diameter - self.base_diameter().powi(2)).sqrt()
     }
 
+    /// Why no trace has places: what its measuring range lacks.
+    pub(crate) fn no_range(&self) -> &'static str {
+        let below = |d: f64| self.roll_length(d).is_nan();
+        match (self.profile_measured, self.helix_measured) {
+            (None, None) => {
+                "no measuring range is stated: profiles from `da` to `de` (diameters), helices from `ba` to `be` (heights)"
+            }
+            (Some([from, to]), _) if from >= to => {
+                "the measuring range of profiles does not ascend: `da` is the smaller diameter"
+            }
+            (Some([from, _]), _) if below(from) => "the measuring range of profiles begins below the base circle",
+            (_, Some([from, to])) if from >= to => {
+                "the measuring range of helices does not ascend: `ba` is the lower height"
+            }
+            _ => "no trace has two values in a measuring range",
+        }
+    }
+
     /// Roll angle of the rotation of one tooth, 2 pi/z.
     pub fn pitch_angle(&self) -> f64 {
         2.0 * PI / f64::from(self.teeth)
@@ -138,7 +158,7 @@ impl MeasuredGear {
     /// # Errors
     /// [`MetrologyError::Deviation`].
     pub(crate) fn checked(self, path: &Path) -> Result<Self, MetrologyError> {
-        let most_um = 1e3 * LARGEST * self.header.normal_module;
+        let most_um = (1e3 * LARGEST * self.header.normal_module).min(LARGEST_UM);
         let of_traces = self.traces.iter().flat_map(|trace| {
             let what = match trace.kind {
                 TraceKind::Profile(_) => "profile",
@@ -159,10 +179,27 @@ impl MeasuredGear {
         }
     }
 
-    /// How many traces were measured again at the same place of the same tooth: the last of them counts.
-    pub fn repeated_traces(&self) -> usize {
+    /// The gear with the last of traces, and of tables of pitch, that were measured again.
+    #[must_use]
+    pub fn last_of_each(mut self) -> Self {
+        let again = self.again();
+        let mut each = again.iter();
+        self.traces.retain(|_| each.next() == Some(&false));
+        let sides: Vec<Side> = self.pitch.iter().map(|own| own.side).collect();
+        let mut each = (0..sides.len()).map(|i| !sides[i + 1..].contains(&sides[i]));
+        self.pitch.retain(|_| each.next() == Some(true));
+        self
+    }
+
+    /// Whether each trace was measured again later.
+    fn again(&self) -> Vec<bool> {
         let same = |a: &Trace, b: &Trace| a.tooth == b.tooth && a.side == b.side && a.kind == b.kind;
         let again = |(i, trace): (usize, &Trace)| self.traces[i + 1..].iter().any(|later| same(trace, later));
-        self.traces.iter().enumerate().filter(|own| again(*own)).count()
+        self.traces.iter().enumerate().map(again).collect()
+    }
+
+    /// How many traces were measured again at the same place of the same tooth: the last of them counts.
+    pub fn repeated_traces(&self) -> usize {
+        self.again().into_iter().filter(|again| *again).count()
     }
 }

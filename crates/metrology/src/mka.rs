@@ -220,6 +220,9 @@ impl Reader<'_> {
         if tooth == 0 || tooth > MOST_TEETH {
             return Err(self.fault(line, "a tooth, counted from 1", words[0]));
         }
+        if self.header.numbers[1].is_some_and(|teeth| f64::from(tooth) > teeth) {
+            return Err(self.fault(line, "a tooth of the gear, whose number of teeth is in line 22", words[0]));
+        }
         let side = words.iter().find_map(|w| side(w)).ok_or_else(fault)?;
         let at = words.iter().position(|w| *w == "Werte").filter(|at| *at > 0).ok_or_else(fault)?;
         let count: usize = words[at - 1].parse().ok().filter(|n| *n <= MOST_VALUES).ok_or_else(fault)?;

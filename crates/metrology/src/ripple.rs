@@ -14,6 +14,10 @@ use crate::measured_gear::{MeasuredGear, TraceKind};
 
 /// Cosine and sine of an order that are this near to one another cannot be told apart on the traces.
 const SINGULAR: f64 = 1e-12;
+/// Least share of the square of a wave that is no parabola on the traces.
+const LEAST_SEEN: f64 = 1e-3;
+/// Points in the period of the shortest wave.
+const POINTS: f64 = 4.0;
 
 /// One wave: A cos(O theta + phi), theta the rotation at which its flanks are in mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -34,7 +38,7 @@ pub struct Ripple {
 /// sum over all points of [f - sum_j (a_j cos O_j theta + b_j sin O_j theta) - own parabola of each trace]^2 = min
 /// ```
 /// Each trace keeps a parabola of its own, which is slope, crowning and pitch and no wave. `orders` are those that are
-/// tried, `count` how many waves are looked for at the most; a step that finds less than `least_um` ends the search. Waves
+/// tried, up to four points a period, `count` how many waves are looked for at the most; a step that finds less than `least_um` ends the search. Waves
 /// that differ by the number of teeth are alike on one tooth, so that all teeth are needed.
 ///
 /// # Errors
@@ -67,6 +71,10 @@ pub fn ripple(
         let of = |t: &Flattened| t.without(t.points.iter().map(|p| wave(f64::from(order) * p[0])).collect());
         traces.iter().flat_map(of).collect()
     };
+    let points = values.len() as f64;
+    // No more than one period in four points.
+    let finest = traces.iter().map(Flattened::per_period).fold(f64::INFINITY, f64::min);
+    let orders = *orders.start()..=(*orders.end()).min(finest as u32);
     let norms = norms(&traces, &orders);
     let mut found: Vec<u32> = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -79,7 +87,9 @@ pub fn ripple(
         let products = products(traces.iter().flat_map(|t| &t.points).map(|p| p[0]).zip(left), &orders);
         let taken = |((order, &[cc, cs, ss]), &[c, s]): ((u32, &[f64; 3]), &[f64; 2])| {
             let det = cc * ss - cs * cs;
-            if found.contains(&order) || det.is_nan() || det <= SINGULAR * cc * ss {
+            // Hardly anything of a wave much longer than a trace is left beside its parabola.
+            let seen = cc + ss >= LEAST_SEEN * points;
+            if found.contains(&order) || !seen || det.is_nan() || det <= SINGULAR * cc * ss {
                 return None;
             }
             let [a, b] = [(ss * c - cs * s) / det, (cc * s - cs * c) / det];
@@ -165,6 +175,12 @@ impl Flattened {
             shapes.push(own);
         }
         Self { points, shapes }
+    }
+
+    /// Order of the wave with four points a period.
+    fn per_period(&self) -> f64 {
+        let (first, last) = (self.points[0][0], self.points[self.points.len() - 1][0]);
+        TAU * (self.points.len() - 1) as f64 / (POINTS * (last - first).abs())
     }
 
     /// Values without their parabola.

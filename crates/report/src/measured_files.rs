@@ -9,8 +9,8 @@ use answer::Table;
 /// Waves that are looked for on each side, and the least amplitude, um.
 const WAVES: usize = 10;
 const LEAST_UM: f64 = 0.005;
-/// Orders above the number of teeth up to so many times that.
-const HARMONICS: u32 = 10;
+/// Orders up to so many times the number of teeth.
+const HARMONICS: u32 = 20;
 
 /// What is made of a measured gear.
 #[derive(Debug, Clone)]
@@ -34,10 +34,12 @@ pub fn measured_files(
     (name, drive): (&str, Side),
     source: &str,
 ) -> Result<MeasuredFiles, MetrologyError> {
+    let repeated = measured.repeated_traces();
+    let measured = &measured.clone().last_of_each();
     let flanks = metrology::flanks(measured, gear)?;
     let evaluation = metrology::evaluate(measured, gear)?;
     let teeth = gear.teeth();
-    let of_side = |side| metrology::ripple(measured, side, teeth / 2..=HARMONICS * teeth, WAVES, LEAST_UM).ok();
+    let of_side = |side| metrology::ripple(measured, side, 1..=HARMONICS * teeth, WAVES, LEAST_UM).ok();
     let ripples = [Side::Left, Side::Right].map(|side| (side, of_side(side).unwrap_or_default()));
     let mut files = Vec::new();
     let mut scene = String::new();
@@ -57,7 +59,7 @@ pub fn measured_files(
     }
     let tables = vec![evaluation_table(name, &evaluation), ripple_table(name, &ripples)];
     files.extend(pictures(measured, name, &ripples));
-    let text = text(measured, &flanks, &evaluation, &ripples) + "\nFor the scene:\n" + &scene;
+    let text = text((measured, repeated), &flanks, &evaluation, &ripples) + "\nFor the scene:\n" + &scene;
     Ok(MeasuredFiles { files, tables, text })
 }
 
@@ -139,7 +141,7 @@ fn pictures(measured: &MeasuredGear, name: &str, ripples: &[(Side, Vec<Ripple>);
 }
 
 fn text(
-    of: &MeasuredGear,
+    (of, repeated): (&MeasuredGear, usize),
     flanks: &MeasuredFlanks,
     evaluation: &GearEvaluation,
     ripples: &[(Side, Vec<Ripple>); 2],
@@ -150,13 +152,17 @@ fn text(
         let class = class.map_or("beyond 11".to_owned(), |c| c.to_string());
         out += &format!("  {name:<9}{value:>8.2} um   class {class}\n");
     }
+    if evaluation.classes.is_empty() {
+        out += "  nothing: the evaluation ranges (d1, d2; b1, b2) do not ascend, or hold fewer than three values\n";
+    }
     if let Some(varies) = evaluation.thickness_variation_um {
         out += &format!("  {:<9}{varies:>8.2} um\n", "R_s");
     }
     for (side, waves) in ripples.iter().filter(|(_, waves)| !waves.is_empty()) {
         out += &format!("\nWaves of the {} flanks, orders of the gear's turn ({teeth} teeth)\n", side.name());
         for wave in waves {
-            let ghost = if wave.order % teeth == 0 { "" } else { "   no multiple of the teeth" };
+            let alike = wave.order.is_multiple_of(teeth);
+            let ghost = if alike { "   the same on all teeth" } else { "   no multiple of the teeth" };
             out += &format!("  order {:>4}{:>9.3} um{ghost}\n", wave.order, wave.amplitude_um);
         }
     }
@@ -165,9 +171,20 @@ fn text(
         let copies = teeth as usize - measured.len();
         let told = if copies == 0 { String::new() } else { format!("; the other {copies} are copies of the nearest") };
         let waves = if copies == 0 { "" } else { "; waves around the gear need profiles of all teeth" };
-        out += &format!("{} flanks of {} teeth were measured{told}{waves}\n", side.name(), measured.len());
+        let teeth = if measured.len() == 1 { "tooth" } else { "teeth" };
+        out += &format!("{} flanks of {} {teeth} were measured{told}{waves}\n", side.name(), measured.len());
     }
-    let repeated = of.repeated_traces();
+    let same: usize = flanks.same_along_face.iter().sum();
+    if same > 0 {
+        out += &format!("{same} flanks have one profile, which stands for the whole face\n");
+    }
+    let unused = |is_profile: bool| {
+        let of_kind = |t: &&metrology::Trace| matches!(t.kind, TraceKind::Profile(_)) == is_profile;
+        of.traces.iter().filter(of_kind).filter(|t| t.places(&of.header).is_none()).count()
+    };
+    for (name, count) in [("profiles", unused(true)), ("helices", unused(false))].into_iter().filter(|(_, n)| *n > 0) {
+        out += &format!("{count} {name} have no measuring range in the header, or fewer than two values: left out\n");
+    }
     if repeated > 0 {
         out += &format!("{repeated} traces were measured again at the same place: the last one counts\n");
     }

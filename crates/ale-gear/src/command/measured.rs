@@ -42,6 +42,11 @@ impl MeasuredArgs {
                 return Err(CommandError::input(what, Some("as in `--measured pinion=gear.mka`".into())));
             }
         };
+        if gear.1.is_internal() {
+            let what = format!("the {} is a ring: measured rings are not read", gear.0);
+            let hint = "state its micro-geometry, or a `topography` file".to_owned();
+            return Err(CommandError::input(what, Some(hint)));
+        }
         let path = Path::new(file);
         let refused = |e: metrology::MetrologyError| CommandError::input(&e, e.hint());
         let measured = match &self.names {

@@ -25,7 +25,7 @@ use crate::{
     certificate::Checks,
     error::in_scene,
     facts::{Resolution, RunInfo},
-    flank_orders::FlankWaves,
+    flank_orders::{FlankWaves, orders_of_no_turn},
     gears,
     in_motion::{self, MeshRecord, StepKeys, coarse_steps, steps_of_cycle, stretched},
     inputs::motion_of,
@@ -267,6 +267,7 @@ fn result(
                 .resolved();
         headline.certificate.step_error_percent = resolved.step_error_percent;
         remarks.extend(resolved.remarks);
+        remarks.extend(orders_of_no_turn(&inputs.pair, run.judged));
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
             remarks.extend(coarse_steps(steps, ("mesh resonance", system.resonance_hz), (StepKeys::PAIR, "")));

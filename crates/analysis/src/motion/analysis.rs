@@ -26,7 +26,7 @@ use crate::{
     error::{in_scene, unasked},
     facts::RunInfo,
     failure::Failure,
-    flank_orders::FlankWaves,
+    flank_orders::{FlankWaves, orders_of_no_turn},
     in_motion::{MeshRecord, StepKeys, steps_of_cycle, stretched},
     inputs::resolved_scene,
     refused::Refusal,
@@ -299,6 +299,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
                 .resolved();
         headline.certificate.step_error_percent = resolved.step_error_percent;
         remarks.extend(resolved.remarks);
+        remarks.extend(orders_of_no_turn(&pair, headline.cycles));
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));

@@ -113,6 +113,25 @@ fn shares_are_what_a_run_without_them_lacks() {
     }
 }
 
+/// A wave that is the same at all heights of a helical gear crosses the contact lines: what it makes of the transmission error is
+/// little, and its share says so.
+#[test]
+fn a_wave_across_the_contact_lines_makes_little() {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |tooth: u32, roll: f64| 0.3 * (GHOST * (roll - TAU * f64::from(tooth) / f64::from(TEETH))).cos();
+    let file = topography(folder.path(), "wave.csv", wave);
+    let scene = turn(&file, 150.0).set("pinion.helix_angle_deg", 20.0).set("contact.slices", 24);
+    let scene = scene.set("output.flank_orders", true).build().unwrap();
+    let result = StaticAnalysis::new(&scene).solve().unwrap();
+    let found = FlankOrders::of(&result.scene, &result.pair, &result.history).unwrap();
+    let own = line(&found, GHOST);
+    let part = FlankPart::Wave(GHOST as u32);
+    let share = found.shares.iter().find(|s| (s.order[0] - GHOST).abs() < 1e-9 && s.part == part).unwrap();
+    println!("{own:?}: {share:?}");
+    assert!((own.wave_um[0] - 0.3).abs() < 0.01 && own.ste_um < 0.15, "{own:?}");
+    assert!((share.amplitude_um / own.flanks_um - 1.0).abs() < 0.1 && (share.share - 1.0).abs() < 0.15, "{share:?}");
+}
+
 /// An equal deviation of all flanks f is a transmission error f/cos beta_b: rates by the gaps of a position add up to
 /// 1/cos beta_b, also with friction and several pairs.
 #[test]

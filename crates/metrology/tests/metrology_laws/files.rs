@@ -73,7 +73,7 @@ fn damaged_files_name_the_line() {
     );
     assert_eq!(
         says("Profil: Zahn-Nr.: 53 links / 1 Werte z= 7.5\n 1\n"),
-        "g.mka: a tooth whose curve there is is missing"
+        "g.mka:6: expected a tooth of the gear, whose number of teeth is in line 22, found `53`"
     );
     assert_eq!(says(""), "g.mka: any curve is missing");
     assert_eq!(read("").unwrap_err().to_string(), "g.mka: line 22, the number of teeth, is missing");
@@ -177,6 +177,13 @@ fn gde_is_read_through_its_names() {
     );
     assert!(says(&GDE.replace("<v>2.5</v>", "<v>2,x</v>")).contains("g.xml:4: expected a number, found `x`"));
     assert!(says("<gde>").starts_with("g.xml:1: "));
+    // A comma between digits beside blanks is a decimal mark; alone it separates.
+    let read = |values: &str| {
+        read_gde(&GDE.replace("<v>0 1, 2</v>", &format!("<v>{values}</v>")), &names(), Path::new("g.xml"))
+    };
+    let said = read("0,1 0,2 0,3").unwrap_err();
+    assert!(said.to_string().contains("expected a number with a decimal point, found `0,1`"), "{said}");
+    assert_eq!(read("0,1,2").unwrap(), read("0 1 2").unwrap());
 }
 
 /// The map of names is a file: what is missing or not known in it is told with its line.

@@ -51,6 +51,31 @@ fn the_last_of_repeated_traces_counts() {
     assert_ne!(topographies(&again), topographies(&made(&[0.5])));
 }
 
+/// Teeth with other traces than their neighbours, and traces with ends of their own: all grids of a side have the same lines, and
+/// the flank of each tooth keeps its place.
+#[test]
+fn all_teeth_have_the_same_lines() {
+    let gear = gear();
+    let header = header(&gear);
+    let slope = |z: f64| 0.5 * z;
+    let profile = |tooth: u32| trace(&header, TraceKind::Profile(0.0), (tooth, Side::Left), |_| 0.0);
+    let helix = |tooth: u32| trace(&header, TraceKind::Helix(90.0), (tooth, Side::Left), slope);
+    let mut traces: Vec<_> = (0..30).map(profile).chain((0..30).step_by(7).map(helix)).collect();
+    // A value that is none at the end of one of them.
+    traces[31].deviations_um[0] = None;
+    let found = flanks(&MeasuredGear { header, traces, pitch: Vec::new() }, &gear).unwrap();
+    assert_eq!(found.same_along_face, [25, 0]);
+    let grids = found.topographies[0].as_ref().unwrap().grids();
+    assert!(grids.iter().all(|own| own.heights() == grids[0].heights() && own.profile() == grids[0].profile()));
+    let left = FlankModification { topography: found.topographies[0].clone(), ..FlankModification::default() };
+    let ground = gear.clone().with_modifications(GearModifications { left, ..Default::default() }).unwrap();
+    for tooth in [0, 7, 28] {
+        let at = |z: f64| -1e3 * ground.depth(Side::Left, tooth, 15.0 / gear.base_radius(), z).value;
+        let off = at(6.0) - at(-6.0) - 6.0;
+        assert!(off.abs() < 0.02, "tooth {tooth}: off by {off} um");
+    }
+}
+
 /// Pitch of both sides becomes one error a tooth; what that leaves out is said.
 #[test]
 fn pitch_becomes_one_error_a_tooth() {

@@ -33,6 +33,16 @@ fn summed_waves_are_found_again() {
         assert!(off.abs() < 0.02, "{own:?}, not {phase}");
     }
     assert!(ripple(&all, Side::Right, 31..=300, 5, 0.01).is_err());
+    // Orders far below and above the number of teeth are no others in disguise.
+    for order in [7u32, 333] {
+        let one = measured(|tooth, x| {
+            let theta = x / gear.base_radius() - TAU * f64::from(tooth) / 30.0;
+            2.0 * (f64::from(order) * theta + 0.4).cos()
+        });
+        let found = ripple(&one, Side::Left, 1..=600, 5, 0.002).unwrap();
+        assert!(found[0].order == order && (found[0].amplitude_um - 2.0).abs() < 0.02, "{found:?}");
+        assert!(found.iter().skip(1).all(|own| own.amplitude_um < 0.02), "{found:?}");
+    }
     // On some of the teeth alone a wave is like any other that differs by the number of teeth.
     let mut some = all.clone();
     some.traces.truncate(29);

@@ -4,10 +4,9 @@ use analysis::flank_orders::{FlankOrders, FlankPart, FlankShare, TeLine};
 use answer::Table;
 
 /// Meanings of the waves beside orders.
-pub const PINION_WAVE: &str =
-    "amplitude of the wave of this order on the driving flanks of the pinion, normal to them; 0 without one";
+pub const PINION_WAVE: &str = "amplitude of the wave of this order on the driving flanks of the pinion at mid-face, normal to them, up to order 20 z; 0 without one";
 /// The same of the wheel.
-pub const WHEEL_WAVE: &str = "amplitude of the wave of this order on the driving flanks of the wheel; 0 without one";
+pub const WHEEL_WAVE: &str = "amplitude of the wave of this order on the driving flanks of the wheel at mid-face, up to order 20 z; 0 without one";
 
 /// Orders of the transmission error beside the waves of the flanks, and the shares of waves and teeth.
 pub fn flank_orders(found: &FlankOrders) -> [Table; 2] {
