@@ -114,6 +114,7 @@ impl GearHeader {
             (None, None) => {
                 "no measuring range is stated: profiles from `da` to `de` (diameters), helices from `ba` to `be` (heights)"
             }
+            (None, Some(_)) => "profiles have no measuring range, from `da` to `de` (diameters)",
             (Some([from, to]), _) if from >= to => {
                 "the measuring range of profiles does not ascend: `da` is the smaller diameter"
             }
