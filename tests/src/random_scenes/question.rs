@@ -128,6 +128,12 @@ pub fn draw_output(d: &mut Draft, asked: &Asked) {
 pub fn draw_derivatives(d: &mut Draft, asked: &Asked) {
     let slices = d.get("contact.method").is_none_or(|m| m.as_str() == Some("slice"));
     let asks = asked.meshed && asked.model == "reduced" && !asked.in_time && d.get("accuracy").is_none();
+    let own = ["pitch_errors_file", "pitch_errors_um", "modification.drive.topography"];
+    let deviates =
+        ["pinion", "wheel"].iter().any(|gear| own.iter().any(|key| d.get(&format!("{gear}.{key}")).is_some()));
+    if slices && asks && deviates && d.chance(0.3) {
+        d.set("output.flank_orders", true);
+    }
     if !(slices && asks && d.chance(0.1)) {
         return;
     }

@@ -50,8 +50,12 @@ fn no_key_is_left_out() {
     assert_eq!(all, of_schema, "keys of the table and of the schema");
     let folder = tempfile::tempdir().unwrap();
     std::os::unix::fs::symlink(testing::meshes_folder(), folder.path().join("meshes")).unwrap();
-    // The ring of a pair is its wheel: a pinion has no shaper.
-    let mut left: BTreeSet<String> = all.into_iter().filter(|key| !key.starts_with("pinion.shaper.")).collect();
+    // The ring of a pair is its wheel: a pinion has no shaper. Bolts open in gearboxes alone.
+    let of_pairs = |key: &String| {
+        let of_bolts = key.ends_with(".bore.bolts.opens") || key.ends_with(".bore.bolts.preload_n");
+        !key.starts_with("pinion.shaper.") && !of_bolts
+    };
+    let mut left: BTreeSet<String> = all.into_iter().filter(of_pairs).collect();
     for index in 0..DRAWN {
         if left.is_empty() {
             return;

@@ -22,6 +22,6 @@ fn what_does_not_settle_is_told() {
     };
     assert_eq!(of(53, 1e-7, 106), None);
     assert!(of(106, 1e-7, 106).unwrap().contains("subharmonic"));
-    assert!(of(53, 1e-3, 106).unwrap().contains("those that were written"));
+    assert!(of(53, 1e-3, 106).unwrap().contains("the cycles that were written"));
     assert!(of(53, 1e-3, 1000).unwrap().contains("it may be chaotic"));
 }
