@@ -45,6 +45,14 @@ fn a_load_without_digits_is_refused() {
     assert_eq!(status, Some(0), "{enough} N m: {said}");
 }
 
+/// Teeth so soft that no flank presses any more in between are told what they would bend by.
+#[test]
+fn a_position_where_nothing_presses_is_told() {
+    let (status, said) = run(include_str!("../../data/found/nothing_presses.toml"));
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("would bend the teeth by"), "{said}");
+}
+
 /// The least gap of the unloaded flanks is found where axes are tilted far for the width.
 #[test]
 fn tilted_flanks_are_seen_to_touch() {

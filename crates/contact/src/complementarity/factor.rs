@@ -26,6 +26,11 @@ impl DenseSolver {
         let order = padded(m);
         (self.factored, self.saved) = (false, false);
         self.turned.clear();
+        if m == 0 {
+            // Nothing presses: there is nothing to factor, and nothing to solve for.
+            self.factored = true;
+            return Ok(());
+        }
         // Most of the active rows follow each other.
         self.runs.clear();
         self.runs.extend(self.active.chunk_by(|a, b| a + 1 == *b).map(|run| run[0]..run[0] + run.len()));
@@ -84,6 +89,9 @@ impl DenseSolver {
 
     /// Solves with the factor for the first `columns` columns of `x`, m rows each.
     pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
+        if m == 0 {
+            return;
+        }
         if self.symmetric && columns <= FEW {
             let Self { x, factor, arch, column, .. } = self;
             for x in x[..m * columns].chunks_exact_mut(m) {

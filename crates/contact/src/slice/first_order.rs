@@ -191,6 +191,10 @@ impl FirstOrderGap {
         }
         let (low, high) = (own[0].max(other[0]), own[1].min(other[1]));
         let slack = NEARLY * self.stride;
+        if low.is_nan() || high.is_nan() {
+            // Helicoids that touch nowhere near: the search itself says so.
+            return Err(false);
+        }
         if low > high {
             // To first order the ends are known to a part of a stride.
             return Err(low > high + slack + 0.1 * low.abs().max(high.abs()));
