@@ -286,7 +286,7 @@ impl<'a> Deviations<'a> {
             let found = metrology::ripple(
                 &self.measured(-0.5 * width + i as f64 * step),
                 self.side,
-                wave.order..=wave.order,
+                (wave.order..=wave.order, 1),
                 1,
                 0.0,
             );
@@ -313,7 +313,10 @@ impl<'a> Deviations<'a> {
         let measured = self.measured(0.0);
         let depths = measured.traces.iter().flat_map(|own| &own.deviations_um).flatten();
         let least_um = LEAST * depths.fold(0.0, |most: f64, depth| most.max(depth.abs()));
-        let orders = 1..=HARMONICS * self.gear.teeth();
+        // Teeth that are alike have waves of multiples of their number alone.
+        let teeth = self.gear.teeth();
+        let step = if self.gear.has_own_flanks() { 1 } else { teeth };
+        let orders = (step..=HARMONICS * teeth, step);
         // A topography beside the flank has none.
         metrology::ripple(&measured, self.side, orders, WAVES, least_um).unwrap_or_default()
     }

@@ -38,15 +38,16 @@ pub struct Ripple {
 /// sum over all points of [f - sum_j (a_j cos O_j theta + b_j sin O_j theta) - own parabola of each trace]^2 = min
 /// ```
 /// Each trace keeps a parabola of its own, which is slope, crowning and pitch and no wave. `orders` are those that are
-/// tried, up to four points a period, `count` how many waves are looked for at the most; a step that finds less than `least_um` ends the search. Waves
-/// that differ by the number of teeth are alike on one tooth, so that all teeth are needed.
+/// tried, each `step`-th of them, up to four points a period: the number of teeth where all teeth are alike, else 1. `count`: how
+/// many waves are looked for at the most; a step that finds less than `least_um` ends the search. Waves that differ by the
+/// number of teeth are alike on one tooth, so that all teeth are needed.
 ///
 /// # Errors
 /// [`MetrologyError::Unusable`] without profiles on that side of all teeth that have a range.
 pub fn ripple(
     measured: &MeasuredGear,
     side: Side,
-    orders: RangeInclusive<u32>,
+    (orders, step): (RangeInclusive<u32>, u32),
     count: usize,
     least_um: f64,
 ) -> Result<Vec<Ripple>, MetrologyError> {
@@ -74,7 +75,8 @@ pub fn ripple(
     let points = values.len() as f64;
     // No more than one period in four points.
     let finest = traces.iter().map(Flattened::per_period).fold(f64::INFINITY, f64::min);
-    let orders = *orders.start()..=(*orders.end()).min(finest as u32);
+    let orders = (*orders.start()..=(*orders.end()).min(finest as u32)).step_by(step.max(1) as usize);
+    let orders: Vec<u32> = orders.collect();
     let norms = norms(&traces, &orders);
     let mut found: Vec<u32> = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -95,7 +97,7 @@ pub fn ripple(
             let [a, b] = [(ss * c - cs * s) / det, (cc * s - cs * c) / det];
             (f64::hypot(a, b) >= least_um).then_some((a * c + b * s, order))
         };
-        let all = orders.clone().zip(&norms).zip(&products);
+        let all = orders.iter().copied().zip(&norms).zip(&products);
         let Some((_, order)) = all.filter_map(taken).max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
         columns.extend([shape(order, f64::cos), shape(order, f64::sin)]);
         let Some(next) = fit(&columns, &values) else {
@@ -114,9 +116,9 @@ pub fn ripple(
     Ok(all)
 }
 
-/// Sums of value times cosine and value times sine of each order over points (rotation, value).
-fn products(points: impl Iterator<Item = (f64, f64)>, orders: &RangeInclusive<u32>) -> Vec<[f64; 2]> {
-    let mut sums = vec![[0.0; 2]; orders.clone().count()];
+/// Sums of value times cosine and value times sine of each order over points (rotation, value); orders are evenly spaced.
+fn products(points: impl Iterator<Item = (f64, f64)>, orders: &[u32]) -> Vec<[f64; 2]> {
+    let mut sums = vec![[0.0; 2]; orders.len()];
     for (theta, value) in points {
         let (mut wave, step) = turned(theta, orders);
         for sum in &mut sums {
@@ -129,8 +131,8 @@ fn products(points: impl Iterator<Item = (f64, f64)>, orders: &RangeInclusive<u3
 }
 
 /// Sums of cosine times cosine, cosine times sine and sine times sine of each order, without the parabolas of the traces.
-fn norms(traces: &[Flattened], orders: &RangeInclusive<u32>) -> Vec<[f64; 3]> {
-    let mut sums = vec![[0.0; 3]; orders.clone().count()];
+fn norms(traces: &[Flattened], orders: &[u32]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; orders.len()];
     for trace in traces {
         for [theta, _] in &trace.points {
             let (mut wave, step) = turned(*theta, orders);
@@ -151,8 +153,10 @@ fn norms(traces: &[Flattened], orders: &RangeInclusive<u32>) -> Vec<[f64; 3]> {
 }
 
 /// The wave of the first order at a rotation, and what leads from one order to the next.
-fn turned(theta: f64, orders: &RangeInclusive<u32>) -> (Complex<f64>, Complex<f64>) {
-    (Complex::cis(f64::from(*orders.start()) * theta), Complex::cis(theta))
+fn turned(theta: f64, orders: &[u32]) -> (Complex<f64>, Complex<f64>) {
+    let first = orders.first().map_or(0.0, |own| f64::from(*own));
+    let step = orders.get(1).map_or(0.0, |own| f64::from(*own)) - first;
+    (Complex::cis(first * theta), Complex::cis(step * theta))
 }
 
 /// A trace over the rotation, with the parabolas of its range made orthonormal.

@@ -39,7 +39,7 @@ pub fn measured_files(
     let flanks = metrology::flanks(measured, gear)?;
     let evaluation = metrology::evaluate(measured, gear)?;
     let teeth = gear.teeth();
-    let of_side = |side| metrology::ripple(measured, side, 1..=HARMONICS * teeth, WAVES, LEAST_UM).ok();
+    let of_side = |side| metrology::ripple(measured, side, (1..=HARMONICS * teeth, 1), WAVES, LEAST_UM).ok();
     let ripples = [Side::Left, Side::Right].map(|side| (side, of_side(side).unwrap_or_default()));
     let mut files = Vec::new();
     let mut scene = String::new();
